@@ -1,0 +1,32 @@
+# Helpers that give every sslam target the same shape.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+
+# sslam_add_interface(NAME FLOORS folder... LINKS target...): a header-only target sslam::NAME.
+function(sslam_add_interface name)
+  cmake_parse_arguments(ARG "" "" "FLOORS;LINKS" ${ARGN})
+  add_library(sslam_${name} INTERFACE)
+  add_library(sslam::${name} ALIAS sslam_${name})
+  set_target_properties(sslam_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(sslam_${name} INTERFACE cxx_std_20)
+  target_link_libraries(sslam_${name} INTERFACE ${ARG_LINKS})
+  set(headers)
+  foreach(floor IN LISTS ARG_FLOORS)
+    file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/sslam/${floor}/*.hpp")
+    list(APPEND headers ${found})
+  endforeach()
+  if(headers)
+    target_sources(sslam_${name} INTERFACE FILE_SET HEADERS
+                   BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${headers})
+  else()
+    target_include_directories(sslam_${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
+  endif()
+endfunction()
+
+# Warnings and sanitizers: for targets that we compile, never for those who link sslam.
+function(sslam_own_target target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${SSLAM_WERROR}>:-Werror>)
+  if(SSLAM_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SSLAM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${SSLAM_SANITIZE})
+  endif()
+endfunction()
