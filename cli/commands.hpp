@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The subcommands of `sslam`: each adds itself, with its options and its callback, to the application.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace sslam::cli {
+
+void add_run_command(CLI::App& app);    // run.cpp
+void add_eval_command(CLI::App& app);   // eval.cpp
+void add_synth_command(CLI::App& app);  // synth.cpp
+void add_demo_command(CLI::App& app);   // demo.cpp
+
+}  // namespace sslam::cli
