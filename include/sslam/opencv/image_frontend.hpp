@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From an image to a Frame: points and lines in two threads, undistorted, and normals from whatever source is
+// plugged in.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <future>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "sslam/map/frame.hpp"
+#include "sslam/opencv/line_extractor.hpp"
+#include "sslam/opencv/no_normals.hpp"
+#include "sslam/opencv/normal_source.hpp"
+#include "sslam/opencv/orb_extractor.hpp"
+
+namespace sslam {
+
+enum class ImageStatus : std::uint8_t {
+  kOk,
+  kEmpty,      // no pixels: the file could not be decoded
+  kWrongSize,  // not the camera's width and height
+  kWrongType,  // not 8 bit with one, three or four channels
+};
+
+[[nodiscard]] constexpr const char* name(ImageStatus status) noexcept {
+  switch (status) {
+    case ImageStatus::kOk:
+      return "ok";
+    case ImageStatus::kEmpty:
+      return "the image is empty";
+    case ImageStatus::kWrongSize:
+      return "the image does not have the camera's size";
+    case ImageStatus::kWrongType:
+      return "the image is not 8 bit grey, BGR or BGRA";
+  }
+  return "unknown";
+}
+
+// Times are seconds of wall clock; points and normals run beside lines, so the total is less than the sum.
+struct FrontendReport {
+  ImageStatus image = ImageStatus::kOk;      // the frame is filled only if ok
+  NormalStatus normals = NormalStatus::kOk;  // of this frame's normals; points and lines stand without them
+  double grey_time = 0, points_time = 0, lines_time = 0, normals_time = 0, total_time = 0;
+};
+
+template <NormalSource Normals = NoNormals>
+class ImageFrontend {
+ public:
+  Camera<double> camera;
+  OrbExtractor points;
+  LineExtractor lines;
+  Normals normals;
+  bool parallel = true;  // false: one stage after the other, with the same result
+
+  // Replaces the contents of `frame`, whose buffers are reused.
+  [[nodiscard]] FrontendReport process(const ImageInput& input, Frame<double>& frame) {
+    FrontendReport report;
+    const Clock start;
+    report.image = to_grey(input.image);
+    report.grey_time = start.seconds();
+    if (report.image != ImageStatus::kOk) return report;
+    frame.index = input.index;
+    frame.stamp = input.stamp;
+    frame.pinhole = camera.pinhole;
+    frame.width = camera.width;
+    frame.height = camera.height;
+    const auto points_and_normals = [&] {
+      const Clock clock;
+      extract_points(frame);
+      report.points_time = clock.seconds();
+      report.normals = normals.fill(input, camera, frame.normals);
+      report.normals_time = clock.seconds() - report.points_time;
+    };
+    auto beside = std::async(parallel ? std::launch::async : std::launch::deferred, points_and_normals);
+    const Clock clock;
+    extract_lines(frame);
+    report.lines_time = clock.seconds();
+    beside.get();
+    report.total_time = start.seconds();
+    return report;
+  }
+
+ private:
+  class Clock {
+   public:
+    [[nodiscard]] double seconds() const {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+   private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  };
+
+  [[nodiscard]] ImageStatus to_grey(const cv::Mat& image) {
+    if (image.empty()) return ImageStatus::kEmpty;
+    if (image.cols != camera.width || image.rows != camera.height) return ImageStatus::kWrongSize;
+    switch (image.type()) {
+      case CV_8UC1:
+        image.copyTo(grey_);
+        return ImageStatus::kOk;
+      case CV_8UC3:
+        cv::cvtColor(image, grey_, cv::COLOR_BGR2GRAY);
+        return ImageStatus::kOk;
+      case CV_8UC4:
+        cv::cvtColor(image, grey_, cv::COLOR_BGRA2GRAY);
+        return ImageStatus::kOk;
+      default:
+        return ImageStatus::kWrongType;
+    }
+  }
+
+  void extract_points(Frame<double>& frame) {
+    points.extract(grey_, frame.points);
+    for (auto& point : frame.points) point.pixel = camera.undistort_pixel(point.pixel);
+  }
+
+  void extract_lines(Frame<double>& frame) {
+    lines.extract(grey_, frame.lines);
+    for (auto& line : frame.lines)
+      line.segment = {camera.undistort_pixel(line.segment.start), camera.undistort_pixel(line.segment.end)};
+  }
+
+  cv::Mat grey_;
+};
+
+}  // namespace sslam

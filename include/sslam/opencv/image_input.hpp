@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the front end takes in for one frame: the image, and whatever else a normal source may want.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace sslam {
+
+struct ImageInput {
+  std::int64_t index = -1;     // position in the dataset
+  double stamp = 0;            // seconds
+  std::string name;            // of the image file, without folder and extension: finds stored normals
+  cv::Mat image;               // 8 bit: grey, BGR or BGRA
+  cv::Mat depth;               // registered to the image; 16 bit or float; 0: no measurement; empty: none
+  double depth_factor = 5000;  // value of one metre in a 16 bit depth image; float depth is in metres
+};
+
+}  // namespace sslam

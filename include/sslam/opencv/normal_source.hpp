@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The socket for whatever knows surface normals: a depth map, stored files, a network, or nothing.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "sslam/geometry/camera.hpp"
+#include "sslam/map/frame.hpp"
+#include "sslam/opencv/image_input.hpp"
+
+namespace sslam {
+
+enum class NormalStatus : std::uint8_t {
+  kOk,
+  kNoInput,     // this frame has no depth image, or no file of normals
+  kUnreadable,  // a file is there, but cannot be decoded
+  kWrongSize,   // the shape does not fit the camera's image
+  kWrongType,   // number of channels or depth of the pixels
+};
+
+[[nodiscard]] constexpr const char* name(NormalStatus status) noexcept {
+  switch (status) {
+    case NormalStatus::kOk:
+      return "ok";
+    case NormalStatus::kNoInput:
+      return "no input for the normals";
+    case NormalStatus::kUnreadable:
+      return "unreadable file of normals";
+    case NormalStatus::kWrongSize:
+      return "the shape of the normals' input does not fit the camera";
+    case NormalStatus::kWrongType:
+      return "the normals' input has the wrong pixel type";
+  }
+  return "unknown";
+}
+
+// fill(input, camera, field) replaces the contents of `field`; it leaves it empty unless it answers kOk.
+template <class T>
+concept NormalSource = requires(T source, const ImageInput& input, const Camera<double>& camera,
+                                NormalField& field) {
+  { source.fill(input, camera, field) } -> std::same_as<NormalStatus>;
+};
+
+}  // namespace sslam
