@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How well a frame explains all votes: a log-likelihood over that of directions without any structure.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "sslam/manhattan/line_circles.hpp"
+#include "sslam/solver/mean_shift.hpp"
+
+namespace sslam {
+
+// For normals or segments alone or together: `total` of all three axes, `gain[k]` lost without axis k.
+template <Scalar S>
+struct FrameScore {
+  S total = 0;
+  std::array<S, 3> gain{};
+};
+
+// The mixture of the three kernels of the given width (radians, each a density on the sphere) and clutter,
+// averaged over the normals and multiplied by `votes`, the number of independent directions they are taken
+// for. Over directions spread evenly, exp of one vote's score has mean 1, so exp(score) bounds the odds of
+// chance (Markov).
+template <Scalar S>
+[[nodiscard]] FrameScore<S> score_normals(const DirectionView<S>& normals, const Mat3<S>& cam_from_axes,
+                                          S width, S votes) noexcept {
+  constexpr S kShare = S(0.2);  // of each axis; the rest is clutter
+  constexpr S kClutter = S(0.4);
+  using Lanes = detail::DirectionLanes<S>;
+  FrameScore<S> score;
+  S weight = 0;
+  // Kernel mass over the plane is 12 pi h^2 / 5, over the half sphere 2 pi for clutter.
+  const S peak = kShare * S(5) / (S(6) * width * width);
+  const S inverse_cone = S(1) / squared_cone(width);
+  detail::DirectionBlock<S> block;
+  block.weight.setOnes();
+  for (std::size_t first = 0; first < normals.size; first += detail::kDirectionBlock) {
+    detail::load_directions(normals, first, block);
+    const Lanes valid = block.x.square() + block.y.square() + block.z.square();
+    std::array<Lanes, 3> part;
+    Lanes sum = Lanes::Constant(kClutter);
+    for (int k = 0; k < 3; ++k) {
+      const Lanes along =
+          cam_from_axes(0, k) * block.x + cam_from_axes(1, k) * block.y + cam_from_axes(2, k) * block.z;
+      Lanes& density = part[static_cast<std::size_t>(k)];
+      density = (S(1) - (valid - along.square()) * inverse_cone).max(S(0)).square();
+      density = peak * density.square();
+      sum += density;
+    }
+    const Lanes votes_here = block.weight * valid;
+    weight += votes_here.sum();
+    const Lanes logs = sum.log();
+    score.total += (votes_here * logs).sum();
+    for (std::size_t k = 0; k < 3; ++k)
+      score.gain[k] += (votes_here * (logs - (sum - part[k] + kShare).log())).sum();
+  }
+  const S scale = weight > S(0) ? votes / weight : S(0);
+  score.total *= scale;
+  for (S& gain : score.gain) gain *= scale;
+  return score;
+}
+
+// Segments with even shares of axes and clutter, each sigma widened by `floor` (radians).
+template <Scalar S>
+[[nodiscard]] S score_lines(std::span<const LineVote<S>> lines, const Mat3<S>& cam_from_axes,
+                            S floor) noexcept {
+  const Mat3<S> axes_from_cam = cam_from_axes.transpose();
+  const LineShares<S> shares;
+  S total = 0;
+  for (const LineVote<S>& line : lines) {
+    const detail::LineLikelihood<S> like(line, axes_from_cam, floor);
+    total += std::log(shares.clutter() + shares.axis[0] * like.ratio.sum());
+  }
+  return total;
+}
+
+}  // namespace sslam
