@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Translation between two views whose relative rotation is known: the null vector of a linear system over the
+// matches, robust to mismatches, with its sign, its uncertainty, and a refusal where the views do not show
+// it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "sslam/core/status.hpp"
+#include "sslam/geometry/so3.hpp"
+#include "sslam/geometry/sphere.hpp"
+#include "sslam/solver/translation_search.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct TranslationOptions {
+  S max_error = 3;       // largest distance of an inlier from its epipolar half-line, standard deviations
+  S rotation_sigma = 0;  // uncertainty of R_10 about each axis, rad: widens the noise of every match
+  S min_parallax = 3;    // a match has moved when its flow is longer than this, standard deviations
+  S min_moved_share = S(0.2);  // of the inliers; with fewer it is a pure rotation: kLowParallax
+  S max_nearness = 6;          // an inlier this many times nearer than the median of the moved is a mismatch
+  S min_rival_error = S(1.6);  // mean squared error of the second best direction, variances: else kDegenerate
+  S min_front_share = S(0.75);  // of the moved matches along their epipolar line, in front: else kBehind
+  S min_inlier_share = S(0.3);  // of all matches: else kNoConsensus
+  int min_inliers = 10;
+  int max_samples = 200;    // pairs of matches tried at most
+  S confidence = S(0.999);  // that one of the pairs is free of mismatches
+};
+
+template <Scalar S>
+struct TranslationEstimate {
+  Status status = Status::kTooFew;
+  Vec3<S> t_10 = Vec3<S>::Zero();         // unit; x1 ~ R_10 x0 + t_10 / depth0
+  Mat3<S> covariance = Mat3<S>::Zero();   // of t_10, of rank 2, rad^2
+  Vec3<S> eigenvalues = Vec3<S>::Zero();  // of the linear system, ascending; 1 is what noise gives
+  S rival_error = 0;  // of the second best direction, mean of the truncated squares, variances
+  S parallax = 0;     // median over the inliers, rad
+  S front_share = 0;  // of the moved matches along their epipolar line
+  int inliers = 0;
+};
+
+namespace detail {
+
+// Gauss-Newton on the sphere over the residuals whose square is squared_error. `noise` is what the noise
+// within the rows adds to the normal matrix: without taking it out, the information promises too much at low
+// parallax.
+template <Scalar S>
+struct DirectionEquations {
+  Mat2<S> h = Mat2<S>::Zero();
+  Mat2<S> noise = Mat2<S>::Zero();
+  Vec2<S> g = Vec2<S>::Zero();
+
+  void add(const Flow<S>& flow, const Vec3<S>& t_10, const Mat<S, 3, 2>& basis) noexcept {
+    const Vec2<S> along = epipolar_direction(flow, t_10);
+    const S scale = flow.weight / std::sqrt(flow.weight * along.squaredNorm() + S(0.5));
+    const S r = flow.normal.dot(t_10) * scale;
+    const S robust = std::abs(r) > S(1.5) ? S(1.5) / std::abs(r) : S(1);  // Huber
+    const S k = scale * scale / flow.weight;
+    const Mat<S, 2, 2> seen = basis.template topRows<2>() - flow.midpoint * basis.row(2);
+    const Vec2<S> slope = seen.transpose() * along * k;
+    const Vec2<S> j = basis.transpose() * flow.normal * scale - r * slope;
+    h += robust * j * j.transpose();
+    g += robust * r * j;
+    noise += robust * (k * seen.transpose() * seen - slope * slope.transpose());
+  }
+
+  [[nodiscard]] bool step(const Mat<S, 3, 2>& basis, Vec3<S>& t_10) const noexcept {
+    const S determinant = h.determinant();
+    if (!(determinant > S(1e-9) * h.trace() * h.trace())) return false;
+    Vec2<S> delta(h(0, 1) * g(1) - h(1, 1) * g(0), h(1, 0) * g(0) - h(0, 0) * g(1));
+    delta /= determinant;
+    constexpr S kLongest = S(0.3);  // rad
+    if (!(delta.norm() < kLongest)) return false;
+    t_10 = (t_10 + basis * delta).normalized();
+    return true;
+  }
+
+  // False when some direction holds no more than noise does, to `chance`, the relative spread of its mean
+  // square.
+  [[nodiscard]] bool covariance(const Mat<S, 3, 2>& basis, S chance, Mat3<S>& out) const noexcept {
+    const Mat2<S> sure = h - (1 + chance) * noise;
+    if (!(sure(0, 0) > 0 && sure.determinant() > 0)) return false;
+    const Mat2<S> information = h - noise;
+    Mat2<S> inverse;
+    inverse << information(1, 1), -information(0, 1), -information(1, 0), information(0, 0);
+    out = basis * (inverse / information.determinant()) * basis.transpose();
+    return out.allFinite();
+  }
+};
+
+template <Scalar S>
+struct TranslationTally {
+  FlowSystem<S> system;
+  DirectionEquations<S> equations;
+  S front = 0, behind = 0, moved = 0;
+  Mat<S, 3, 2> basis;
+};
+
+template <Scalar S>
+[[nodiscard]] TranslationTally<S> tally(std::span<const BearingMatch<S>> matches, const Mat3<S>& R_10,
+                                        const Vec3<S>& t_10, const TranslationOptions<S>& options,
+                                        const FlowGate<S>& gate) noexcept {
+  TranslationTally<S> sum;
+  sum.basis = tangent_basis(t_10);
+  Flow<S> flow;
+  for (const BearingMatch<S>& match : matches) {
+    if (!compensate(R_10, match, options.rotation_sigma, flow)) continue;
+    const EpipolarFit<S> fit = epipolar_fit(flow, t_10);
+    const bool moved = flow.weight * flow.squared_length() > options.min_parallax * options.min_parallax;
+    if (std::abs(fit.across) < gate.max_error && fit.along < -options.min_parallax) ++sum.behind;
+    if (!gate.accepts(fit)) continue;
+    if (fit.along > options.min_parallax) ++sum.front;
+    if (moved) ++sum.moved;
+    sum.system.add(flow);
+    sum.equations.add(flow, t_10, sum.basis);
+  }
+  return sum;
+}
+
+// Both over the flows of the sample that the gate accepts.
+template <Scalar S>
+struct ParallaxMedians {
+  S angle = 0;                                 // between R_10 x0 and x1, rad
+  S nearness = std::numeric_limits<S>::max();  // inverse depth of the moved ones, in baselines
+};
+
+template <Scalar S>
+[[nodiscard]] S median(std::span<S> values) noexcept {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <Scalar S>
+[[nodiscard]] ParallaxMedians<S> parallax_medians(const FlowSample<S>& sample, const FlowGate<S>& gate,
+                                                  const Vec3<S>& t_10) noexcept {
+  std::array<S, FlowSample<S>::kCapacity> angles, nearness;
+  std::size_t accepted = 0, moved = 0;
+  for (const Flow<S>& flow : sample.view()) {
+    const EpipolarFit<S> fit = epipolar_fit(flow, t_10);
+    if (!gate.accepts(fit)) continue;
+    const S cosine = 1 + flow.midpoint.squaredNorm() - flow.squared_length() / 4;
+    angles[accepted++] = std::atan2(flow.normal.norm(), cosine);
+    if (fit.along > gate.max_error) nearness[moved++] = fit.along / fit.unit;
+  }
+  ParallaxMedians<S> medians;
+  if (accepted > 0) medians.angle = median(std::span<S>(angles.data(), accepted));
+  if (moved > 0) medians.nearness = median(std::span<S>(nearness.data(), moved));
+  return medians;
+}
+
+// Mean of the truncated squared errors of a direction over those flows that the gate accepts at t_10.
+template <Scalar S>
+[[nodiscard]] S rival_error(const FlowSample<S>& sample, const FlowGate<S>& gate, const Vec3<S>& t_10,
+                            const Vec3<S>& rival) noexcept {
+  S sum = 0, count = 0;
+  for (const Flow<S>& flow : sample.view()) {
+    if (!gate.accepts(flow, t_10)) continue;
+    const S across = epipolar_fit(flow, rival).across;
+    sum += std::min(across * across, gate.max_error * gate.max_error);
+    ++count;
+  }
+  return count > 0 ? sum / count : S(0);
+}
+
+template <Scalar S>
+[[nodiscard]] Status judge(const TranslationTally<S>& sum, const FlowSample<S>& sample,
+                           const FlowGate<S>& gate, std::size_t matches, const TranslationOptions<S>& options,
+                           TranslationEstimate<S>& estimate) noexcept {
+  const auto count = static_cast<S>(sum.system.count);
+  estimate.inliers = sum.system.count;
+  estimate.front_share = sum.front / std::max(sum.front + sum.behind, S(1));
+  if (estimate.inliers < options.min_inliers || count < options.min_inlier_share * static_cast<S>(matches))
+    return Status::kNoConsensus;
+  if (sum.moved < options.min_moved_share * count) return Status::kLowParallax;
+  FlowSolution<S> solution;
+  if (!sum.system.solve(solution)) return Status::kDegenerate;
+  estimate.eigenvalues = solution.eigenvalues;
+  estimate.rival_error = rival_error(sample, gate, estimate.t_10, solution.rival);
+  // Mismatches that agree with the best direction by chance seldom agree with its rival too.
+  constexpr S kAgreeByChance = S(0.07);
+  const S mismatches = static_cast<S>(matches) / count - 1;
+  const S by_chance = kAgreeByChance * mismatches * options.max_error * options.max_error;
+  if (estimate.rival_error < options.min_rival_error + by_chance) return Status::kDegenerate;
+  const S chance = 6 * std::sqrt(2 / count);
+  if (!sum.equations.covariance(sum.basis, chance, estimate.covariance)) return Status::kDegenerate;
+  return estimate.front_share < options.min_front_share ? Status::kBehind : Status::kOk;
+}
+
+}  // namespace detail
+
+// t_10 from matches and R_10; `inliers` (empty, or one flag a match) is written on success alone. The same
+// seed gives the same answer. Half of the matches may be wrong, as long as the wrong ones do not agree with
+// each other.
+//   (R_10 x0 x x1) . t_10 = 0      (Li et al., RA-L 2020, section IV; Kneip, Chli and Siegwart, BMVC 2011)
+template <Scalar S>
+[[nodiscard]] TranslationEstimate<S> translation_from_rotation(
+    std::span<const BearingMatch<S>> matches, const SO3<S>& R_10, const TranslationOptions<S>& options,
+    std::uint64_t seed, std::span<std::uint8_t> inliers = {}) noexcept {
+  TranslationEstimate<S> estimate;
+  const auto refuse = [&](Status status) {
+    estimate.status = status;
+    return estimate;
+  };
+  const Mat3<S> R = R_10.matrix();
+  if (!R.allFinite() || !std::all_of(matches.begin(), matches.end(), is_finite<S>))
+    return refuse(Status::kNotFinite);
+  if (static_cast<int>(matches.size()) < std::max(options.min_inliers, 2)) return estimate;
+
+  Random random(seed);
+  const FlowSample<S> sample(matches, R, options.rotation_sigma, options.min_parallax, random);
+  TranslationSearch<S> search{{.max_error = options.max_error}, options.max_samples, options.confidence};
+  const S least_moved = options.min_moved_share * options.min_inlier_share * static_cast<S>(sample.size);
+  if (sample.moved_count < 2 || static_cast<S>(sample.moved_count) < least_moved)
+    return refuse(Status::kLowParallax);
+  Vec3<S> t;
+  if (!search.run(sample, random, t)) return refuse(Status::kDegenerate);
+
+  FlowGate<S> gate = search.gate;
+  gate.nearest = options.max_nearness * detail::parallax_medians(sample, gate, t).nearness;
+  detail::TranslationTally<S> sum = detail::tally(matches, R, t, options, gate);
+  for (int iteration = 0; iteration < 3 && sum.equations.step(sum.basis, t); ++iteration)
+    sum = detail::tally(matches, R, t, options, gate);
+  estimate.t_10 = t;
+  estimate.parallax = detail::parallax_medians(sample, gate, t).angle;
+  estimate.status = detail::judge(sum, sample, gate, matches.size(), options, estimate);
+  if (!usable(estimate.status) || inliers.size() != matches.size()) return estimate;
+  Flow<S> flow;
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    inliers[i] = compensate(R, matches[i], options.rotation_sigma, flow) && gate.accepts(flow, t);
+  return estimate;
+}
+
+}  // namespace sslam
