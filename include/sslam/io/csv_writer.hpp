@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables with a header row, separated by commas.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "sslam/io/output_file.hpp"
+#include "sslam/io/text.hpp"
+
+namespace sslam::io {
+
+class CsvWriter {
+ public:
+  // Throws Error when the place cannot be written to.
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns) : file_(path) {
+    for (const std::string& column : columns) write_cell(column);
+    end_row();
+  }
+
+  template <class... Cells>
+  void row(const Cells&... cells) {
+    (write_cell(cells), ...);
+    end_row();
+  }
+
+  // Throws Error when not all of it could be written.
+  void commit() { file_.commit(); }
+
+ private:
+  template <class Cell>
+  void write_cell(const Cell& cell) {
+    if (!first_) file_.stream() << ',';
+    first_ = false;
+    if constexpr (std::is_same_v<Cell, bool>) {
+      file_.stream() << (cell ? 1 : 0);
+    } else if constexpr (std::is_floating_point_v<Cell>) {
+      file_.stream() << exact_decimal(cell, 0);
+    } else if constexpr (std::is_integral_v<Cell>) {
+      file_.stream() << std::to_string(cell);
+    } else {
+      write_text(cell);
+    }
+  }
+
+  // Quoted where a reader would otherwise split it (RFC 4180).
+  void write_text(std::string_view text) {
+    if (text.find_first_of(",\"\n") == std::string_view::npos) {
+      file_.stream() << text;
+      return;
+    }
+    file_.stream() << '"';
+    for (const char c : text) file_.stream() << (c == '"' ? "\"\"" : std::string(1, c));
+    file_.stream() << '"';
+  }
+
+  void end_row() {
+    file_.stream() << '\n';
+    first_ = true;
+  }
+
+  OutputFile file_;
+  bool first_ = true;
+};
+
+}  // namespace sslam::io
