@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the process answers to its caller. A command fails by throwing a std::exception whose what() is the one
-// line to print (exit code 1); it stops with another code, and nothing printed, by throwing Stop.
+// What the process answers to its caller. A command fails by throwing a std::exception whose what() is the
+// one line to print (exit code 1); it stops with another code, and nothing printed, by throwing Stop.
 #pragma once
 
 namespace sslam::cli {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sslam`: parses the command line, runs one subcommand, turns whatever goes wrong into one line and an exit code.
+// `sslam`: parses the command line, runs one subcommand, turns whatever goes wrong into one line and an exit
+// code.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run keeps of each frame, and of the whole: the material of every file that `sslam run` writes.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "sslam/io/trajectory.hpp"
+#include "sslam/track/result.hpp"
+#include "sslam/track/stage_timer.hpp"
+
+namespace sslam::cli {
+
+// A StageTimer by the steady clock, in milliseconds.
+class WallTimer {
+ public:
+  void begin() noexcept {
+    milliseconds.fill(0);
+    start_ = last_ = Clock::now();
+  }
+  void end(Stage stage) noexcept {
+    const auto now = Clock::now();
+    milliseconds[static_cast<std::size_t>(stage)] += std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+  }
+  [[nodiscard]] double total() const noexcept {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+  std::array<double, kStageCount> milliseconds{};
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_{}, last_{};
+};
+static_assert(StageTimer<WallTimer>);
+
+struct FrameRecord {
+  TrackResult<double> result;
+  std::string image;                                // file name, for people
+  int points = 0, lines = 0, normals = 0;           // features found
+  std::array<double, kStageCount> stage_ms{};       // of the tracker's stages
+  double points_ms = 0, lines_ms = 0, normals_ms = 0;
+  double extraction_ms = 0;                         // wall clock of the front end
+  double tracking_ms = 0;                           // wall clock of the tracker
+
+  [[nodiscard]] double frame_ms() const noexcept { return extraction_ms + tracking_ms; }
+};
+
+struct MapPoint {
+  Vec3<double> position;
+};
+struct MapLine {
+  Vec3<double> start, end;
+  int axis = -1;  // Manhattan axis, or -1
+};
+
+struct ParameterValue {
+  std::string name;
+  double value = 0;
+};
+
+struct RunOutcome {
+  std::vector<FrameRecord> frames;
+  io::Trajectory trajectory;  // by the keyframes' final poses, world from camera
+  io::Trajectory live;        // as reported when each frame was tracked
+  io::Trajectory keyframes;
+  std::vector<MapPoint> points;
+  std::vector<MapLine> lines;
+  std::vector<ParameterValue> parameters;
+  std::vector<std::string> warnings;
+  double wall_seconds = 0;    // of the whole loop
+  bool interrupted = false;
+};
+
+}  // namespace sslam::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames on their way from the disk to the tracker: a thread decodes and extracts ahead, the tracker takes in order.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/normal_choice.hpp"
+#include "sslam/io/dataset.hpp"
+#include "sslam/opencv/image_frontend.hpp"
+
+namespace sslam::cli {
+
+struct StreamSettings {
+  Camera<double> camera;
+  double depth_factor = 5000;  // depth image units a metre
+  NormalChoice normals;
+  bool use_points = true;
+  bool use_lines = true;
+};
+
+struct ExtractedFrame {
+  Frame<double> frame;
+  FrontendReport report;
+  std::string image;    // file name, for people
+  std::string warning;  // not empty: something is wrong with this frame
+  bool usable = true;   // false: the frame could not be read and is skipped
+};
+
+class FrameStream {
+ public:
+  FrameStream(const io::Dataset& dataset, StreamSettings settings);
+  ~FrameStream();
+  FrameStream(const FrameStream&) = delete;
+  FrameStream& operator=(const FrameStream&) = delete;
+
+  [[nodiscard]] std::size_t size() const noexcept { return dataset_.frames.size(); }
+
+  // The next frame in order; false at the end. The old contents of `out` are recycled.
+  [[nodiscard]] bool next(ExtractedFrame& out);
+
+ private:
+  void produce();
+  void fill(const io::FrameEntry& entry, ExtractedFrame& out);
+  [[nodiscard]] cv::Mat decode(const io::FrameEntry& entry);
+  void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
+
+  const io::Dataset& dataset_;
+  StreamSettings settings_;
+  ImageFrontend<NormalChoice> frontend_;
+  cv::VideoCapture video_;
+  std::int64_t next_video_frame_ = 0;
+
+  static constexpr std::size_t kAhead = 3;  // frames extracted before they are asked for
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<ExtractedFrame> ready_;
+  std::vector<ExtractedFrame> spare_;
+  std::exception_ptr failure_;
+  bool finished_ = false;
+  bool stop_ = false;
+  std::thread producer_;
+};
+
+}  // namespace sslam::cli

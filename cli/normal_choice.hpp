@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The normal source that the user chose at run time, behind the front end's concept.
+#pragma once
+
+#include <variant>
+
+#include "sslam/opencv/depth_normals.hpp"
+#include "sslam/opencv/file_normals.hpp"
+#include "sslam/opencv/no_normals.hpp"
+
+namespace sslam::cli {
+
+struct NormalChoice {
+  std::variant<NoNormals, DepthNormals, FileNormals> source;
+
+  [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
+    return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
+  }
+};
+static_assert(NormalSource<NormalChoice>);
+
+// From "none", "depth" or "files:DIR". Throws io::Error for anything else.
+[[nodiscard]] NormalChoice choose_normals(const std::string& text);
+
+}  // namespace sslam::cli

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/presets.hpp"
+#include "cli/track_sequence.hpp"
+#include "sslam/ceres/local_bundle_adjustment.hpp"
+
+namespace sslam::cli {
+
+RunOutcome run_features(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
+  presets::Features<double, LocalBundleAdjustment, WallTimer> pipeline;
+  return track_sequence(pipeline, stream, settings, progress);
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/presets.hpp"
+#include "cli/track_sequence.hpp"
+#include "sslam/ceres/local_bundle_adjustment.hpp"
+
+namespace sslam::cli {
+namespace {
+
+using Pipeline = presets::Structure<double, LocalBundleAdjustment, WallTimer>;
+
+}  // namespace
+
+RunOutcome run_structure(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
+  Pipeline pipeline;
+  return track_sequence(pipeline, stream, settings, progress);
+}
+
+RunOutcome run_lines(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
+  Pipeline pipeline;
+  pipeline.mapping.creation.options.use_points = false;
+  return track_sequence(pipeline, stream, settings, progress);
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The named presets of `sslam run`. Each is one instantiation of the pipeline, compiled in a file of its own.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "cli/frame_record.hpp"
+#include "cli/frame_stream.hpp"
+#include "cli/progress.hpp"
+#include "cli/track_settings.hpp"
+
+namespace sslam::cli {
+
+[[nodiscard]] RunOutcome run_structure(FrameStream&, const TrackSettings&, Progress&);  // preset_structure.cpp
+[[nodiscard]] RunOutcome run_lines(FrameStream&, const TrackSettings&, Progress&);      // preset_structure.cpp
+[[nodiscard]] RunOutcome run_paper(FrameStream&, const TrackSettings&, Progress&);      // preset_paper.cpp
+[[nodiscard]] RunOutcome run_features(FrameStream&, const TrackSettings&, Progress&);   // preset_features.cpp
+[[nodiscard]] RunOutcome run_odometry(FrameStream&, const TrackSettings&, Progress&);   // preset_odometry.cpp
+
+struct Preset {
+  std::string_view name;
+  std::string_view meaning;
+  bool use_points;
+  bool use_lines;
+  RunOutcome (*run)(FrameStream&, const TrackSettings&, Progress&);
+};
+
+inline constexpr std::array<Preset, 6> kPresets{{
+    {"structure", "Manhattan rotation, points and lines, local bundle adjustment", true, true, run_structure},
+    {"paper", "the same without bundle adjustment, as published", true, true, run_paper},
+    {"points", "Manhattan rotation from normals, points alone", true, false, run_structure},
+    {"lines", "Manhattan rotation, lines alone once the map is started", true, true, run_lines},
+    {"features", "no Manhattan world: points and lines, six degrees of freedom", true, true, run_features},
+    {"odometry", "frame to frame, no refinement against the local map", true, true, run_odometry},
+}};
+
+}  // namespace sslam::cli

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop of a run, a template over the preset: frames from the stream through the pipeline into records.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "cli/frame_record.hpp"
+#include "cli/frame_stream.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/parameters.hpp"
+#include "cli/progress.hpp"
+#include "cli/track_settings.hpp"
+#include "sslam/io/error.hpp"
+
+namespace sslam::cli {
+
+namespace detail {
+
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+template <class P>
+std::vector<ParameterValue> list_parameters(P& pipeline) {
+  std::vector<ParameterValue> values;
+  visit_parameters(pipeline, [&](const char* name, const auto& value, Unit unit, const char*) {
+    const double scale = unit == Unit::kDegrees ? kDegreesPerRadian : 1;
+    values.push_back({name, static_cast<double>(value) * scale});
+  });
+  return values;
+}
+
+template <class P>
+void override_parameters(P& pipeline, const std::vector<ParameterValue>& overrides) {
+  for (const ParameterValue& wanted : overrides) {
+    bool known = false;
+    visit_parameters(pipeline, [&](const char* name, auto& value, Unit unit, const char*) {
+      if (wanted.name != name) return;
+      using Value = std::remove_reference_t<decltype(value)>;
+      const double inside = unit == Unit::kDegrees ? wanted.value / kDegreesPerRadian : wanted.value;
+      if constexpr (std::is_integral_v<Value>) {
+        if (inside != std::floor(inside) || inside < 0)
+          throw io::Error("--set " + wanted.name + ": wants a whole number, not negative");
+      }
+      value = static_cast<Value>(inside);
+      known = true;
+    });
+    if (!known) throw io::Error("--set " + wanted.name + ": no such parameter in this preset; see --list-parameters");
+  }
+}
+
+template <class P>
+void collect_map(const P& pipeline, RunOutcome& outcome) {
+  const auto& map = pipeline.map();
+  for (const auto& point : map.points)
+    if (point.alive) outcome.points.push_back({point.position});
+  for (const auto& line : map.lines)
+    if (line.alive) outcome.lines.push_back({line.start, line.end, line.axis});
+  for (const auto& keyframe : map.keyframes)
+    outcome.keyframes.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
+  for (const auto& entry : pipeline.trajectory().entries())
+    outcome.trajectory.push_back({entry.stamp, pipeline.trajectory().pose(map, entry).inverse()});
+  const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };
+  std::stable_sort(outcome.trajectory.begin(), outcome.trajectory.end(), earlier);
+  std::stable_sort(outcome.keyframes.begin(), outcome.keyframes.end(), earlier);
+}
+
+}  // namespace detail
+
+template <class P>
+RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings& settings, Progress& progress) {
+  detail::override_parameters(pipeline, settings.overrides);
+  if constexpr (requires { pipeline.rotation.seed; }) pipeline.rotation.seed = settings.seed;
+  if constexpr (requires { pipeline.initialisation.seed; }) pipeline.initialisation.seed = settings.seed;
+  RunOutcome outcome;
+  outcome.parameters = detail::list_parameters(pipeline);
+  outcome.frames.reserve(stream.size());
+  const Interrupt interrupt;
+  WallTimer wall;
+  wall.begin();
+  ExtractedFrame input;
+  while (!Interrupt::asked() && stream.next(input)) {
+    if (!input.warning.empty()) outcome.warnings.push_back(input.warning);
+    if (!input.usable) continue;
+    FrameRecord record;
+    record.image = input.image;
+    record.points = static_cast<int>(input.frame.points.size());
+    record.lines = static_cast<int>(input.frame.lines.size());
+    record.normals = static_cast<int>(input.frame.normals.size());
+    record.points_ms = input.report.points_time * 1e3;
+    record.lines_ms = input.report.lines_time * 1e3;
+    record.normals_ms = input.report.normals_time * 1e3;
+    record.extraction_ms = input.report.total_time * 1e3;
+    record.result = pipeline.track(input.frame);
+    record.tracking_ms = pipeline.timer.total();
+    record.stage_ms = pipeline.timer.milliseconds;
+    if (record.result.has_pose())
+      outcome.live.push_back({record.result.stamp, record.result.cam_from_world.inverse()});
+    progress.show(record);
+    outcome.frames.push_back(std::move(record));
+  }
+  outcome.wall_seconds = wall.total() * 1e-3;
+  outcome.interrupted = Interrupt::asked();
+  progress.finish();
+  detail::collect_map(pipeline, outcome);
+  return outcome;
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the user may change about a preset.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cli/frame_record.hpp"
+
+namespace sslam::cli {
+
+struct TrackSettings {
+  std::vector<ParameterValue> overrides;  // of --set, in the units of --list-parameters
+  std::uint64_t seed = 1;
+};
+
+}  // namespace sslam::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Segments and lines in the image, and the plane that a segment spans with the camera centre.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "sslam/geometry/camera.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct Segment2 {
+  Vec2<S> start, end;  // pixels
+
+  [[nodiscard]] S length() const noexcept { return (end - start).norm(); }
+  [[nodiscard]] Vec2<S> midpoint() const noexcept { return (start + end) / 2; }
+  // Unit; zero for a segment without length.
+  [[nodiscard]] Vec2<S> direction() const noexcept {
+    const Vec2<S> d = end - start;
+    const S norm = d.norm();
+    return norm > 0 ? Vec2<S>(d / norm) : Vec2<S>(Vec2<S>::Zero());
+  }
+};
+
+// (a, b, c) with a^2 + b^2 = 1: l . (u, v, 1) is the signed distance from the line. Zero where p = q.
+template <Scalar S>
+[[nodiscard]] Vec3<S> line_through(const Vec2<S>& p, const Vec2<S>& q) noexcept {
+  const Vec2<S> d = q - p;
+  const S norm = d.norm();
+  if (!(norm > 0)) return Vec3<S>::Zero();
+  const Vec2<S> n(-d.y() / norm, d.x() / norm);
+  return {n.x(), n.y(), -n.dot(p)};
+}
+
+// Unit normal, camera frame, of the plane through the camera centre and the segment.
+template <Scalar S>
+[[nodiscard]] Vec3<S> interpretation_plane(const Segment2<S>& segment, const Pinhole<S>& pinhole) noexcept {
+  return pinhole.unproject(segment.start).cross(pinhole.unproject(segment.end)).normalized();
+}
+
+}  // namespace sslam

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of the map that one bundle adjustment sees: free keyframes, held ones, and the landmarks between them.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <vector>
+
+#include "sslam/map/map.hpp"
+#include "sslam/solver/bundle_graph.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct BundleWindowOptions {
+  std::size_t max_free = 7;    // keyframes that move: the newest and its closest neighbours
+  std::size_t max_held = 15;   // keyframes around them that see the same landmarks and stay where they are
+  bool manhattan = true;       // tie keyframe rotations and line directions to the Manhattan axes
+  SO3<S> world_from_manhattan;               // its columns are the axes that lines follow
+  S rotation_floor = radians(S(0.2));        // standard deviation that no Manhattan rotation falls below
+};
+
+// Keeps its buffers: gathering stops allocating once the window stops growing.
+template <Scalar S>
+class BundleWindow {
+ public:
+  std::vector<KeyframeId> keyframes;  // one for each graph.views, free ones first
+  std::vector<LandmarkId> points;     // one for each graph.points
+  std::vector<LandmarkId> lines;      // one for each graph.lines
+  std::size_t free_count = 0;
+  BundleGraph<S> graph;
+
+  // A keyframe and its most covisible neighbours move, those around them are held.
+  void gather_local(const Map<S>& map, KeyframeId centre, const BundleWindowOptions<S>& options) {
+    keyframes.assign(1, centre);
+    for (const Neighbour& n : map.keyframes[map.index(centre)].neighbours) {
+      if (keyframes.size() >= options.max_free) break;
+      keyframes.push_back(n.keyframe);
+    }
+    build(map, options);
+  }
+
+  // Every keyframe moves.
+  void gather_all(const Map<S>& map, const BundleWindowOptions<S>& options) {
+    keyframes.clear();
+    for (const Keyframe<S>& kf : map.keyframes) keyframes.push_back(kf.id);
+    build(map, options);
+  }
+
+ private:
+  void build(const Map<S>& map, const BundleWindowOptions<S>& options) {
+    free_count = keyframes.size();
+    view_of_.assign(map.keyframes.size(), kNone);
+    for (std::size_t v = 0; v < free_count; ++v) view_of_[map.index(keyframes[v])] = static_cast<std::int32_t>(v);
+    collect(map, map.points, &Keyframe<S>::point_landmarks, points);
+    collect(map, map.lines, &Keyframe<S>::line_landmarks, lines);
+    hold_others(map, options.max_held);
+    graph.clear();
+    for (std::size_t v = 0; v < keyframes.size(); ++v) add_view(map.keyframes[map.index(keyframes[v])], v, options);
+    add_points(map);
+    add_lines(map, options);
+    fix_gauge();
+  }
+
+  // Landmarks seen by free keyframes, in the order of their ids.
+  template <class Landmarks, class Seen>
+  void collect(const Map<S>& map, const Landmarks& landmarks, Seen seen, std::vector<LandmarkId>& out) {
+    marks_.assign(landmarks.size(), 0);
+    for (const KeyframeId k : keyframes)
+      for (const LandmarkId id : map.keyframes[map.index(k)].*seen)
+        if (id != kNone && landmarks[map.index(id)].alive) marks_[map.index(id)] = 1;
+    out.clear();
+    for (std::size_t i = 0; i < marks_.size(); ++i)
+      if (marks_[i] != 0) out.push_back(static_cast<LandmarkId>(i));
+  }
+
+  // Appends the keyframes that share most with the window; ties go to the newer one.
+  void hold_others(const Map<S>& map, std::size_t max_held) {
+    votes_.assign(map.keyframes.size(), 0);
+    for (const LandmarkId id : points) vote(map.points[map.index(id)].observations);
+    for (const LandmarkId id : lines) vote(map.lines[map.index(id)].observations);
+    others_.clear();
+    for (std::size_t k = 0; k < votes_.size(); ++k)
+      if (votes_[k] > 0) others_.push_back(static_cast<KeyframeId>(k));
+    std::sort(others_.begin(), others_.end(), [&](KeyframeId a, KeyframeId b) {
+      const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
+      return va != vb ? va > vb : a > b;
+    });
+    if (others_.size() > max_held) others_.resize(max_held);
+    for (const KeyframeId k : others_) {
+      view_of_[map.index(k)] = static_cast<std::int32_t>(keyframes.size());
+      keyframes.push_back(k);
+    }
+  }
+
+  void vote(const std::vector<Observation>& observations) {
+    for (const Observation& o : observations)
+      if (view_of_[Map<S>::index(o.keyframe)] == kNone) ++votes_[Map<S>::index(o.keyframe)];
+  }
+
+  void add_view(const Keyframe<S>& kf, std::size_t view, const BundleWindowOptions<S>& options) {
+    BundleView<S> out{kf.cam_from_world, kf.frame.pinhole, Hold::kNothing, std::nullopt};
+    if (view >= free_count) out.hold = Hold::kPose;
+    if (view < free_count && options.manhattan && kf.manhattan) out.rotation = make_tie(*kf.manhattan, options);
+    graph.views.push_back(out);
+  }
+
+  [[nodiscard]] static std::optional<RotationTie<S>> make_tie(const RotationObservation<S>& seen,
+                                                              const BundleWindowOptions<S>& options) {
+    const S floor = options.rotation_floor * options.rotation_floor;
+    const Eigen::LLT<Mat3<S>> llt(seen.covariance + floor * Mat3<S>::Identity());
+    if (llt.info() != Eigen::Success || !seen.covariance.allFinite()) return std::nullopt;
+    return RotationTie<S>{seen.cam_from_world, llt.matrixL().solve(Mat3<S>::Identity())};
+  }
+
+  void add_points(const Map<S>& map) {
+    std::erase_if(points, [&](LandmarkId id) {
+      const PointLandmark<S>& landmark = map.points[map.index(id)];
+      const auto first = graph.point_edges.size();
+      for (const Observation& o : landmark.observations) {
+        const std::int32_t view = view_of_[map.index(o.keyframe)];
+        if (view == kNone) continue;
+        const PointFeature<S>& f = map.keyframes[map.index(o.keyframe)].frame.points[map.index(o.feature)];
+        graph.point_edges.push_back({f.pixel, 1 / f.sigma, view});
+      }
+      if (graph.point_edges.size() - first < 2) {
+        graph.point_edges.resize(first);
+        return true;
+      }
+      graph.points.push_back({landmark.position, to_int(first), to_int(graph.point_edges.size())});
+      return false;
+    });
+  }
+
+  void add_lines(const Map<S>& map, const BundleWindowOptions<S>& options) {
+    const Mat3<S> axes = options.world_from_manhattan.matrix();
+    std::erase_if(lines, [&](LandmarkId id) {
+      const LineLandmark<S>& landmark = map.lines[map.index(id)];
+      const auto first = graph.line_edges.size();
+      for (const Observation& o : landmark.observations) {
+        const std::int32_t view = view_of_[map.index(o.keyframe)];
+        if (view == kNone) continue;
+        const LineFeature<S>& f = map.keyframes[map.index(o.keyframe)].frame.lines[map.index(o.feature)];
+        graph.line_edges.push_back({f.segment, 1 / f.sigma, view});
+      }
+      if (graph.line_edges.size() - first < 2) {
+        graph.line_edges.resize(first);
+        return true;
+      }
+      graph.lines.push_back({landmark.line, to_int(first), to_int(graph.line_edges.size()), std::nullopt});
+      if (options.manhattan && landmark.axis != kNone) graph.lines.back().axis = axes.col(landmark.axis);
+      return false;
+    });
+  }
+
+  // Seven degrees of freedom are open when nothing is held. The map's first keyframe, or else the oldest here, keeps
+  // its place, and its rotation too unless a Manhattan frame says what that is. When nothing else is held, scale
+  // is tied to the distance of the farthest view from it.
+  void fix_gauge() {
+    const auto end = keyframes.begin() + static_cast<std::ptrdiff_t>(free_count);
+    const auto oldest = std::min_element(keyframes.begin(), end);
+    const std::size_t held = keyframes.size() - free_count;
+    if (held > 0 && *oldest != 0) {
+      if (held == 1) tie_scale(free_count);
+      return;
+    }
+    const auto anchor = static_cast<std::size_t>(oldest - keyframes.begin());
+    graph.views[anchor].hold = graph.views[anchor].rotation ? Hold::kCentre : Hold::kPose;
+    if (held == 0) tie_scale(anchor);
+  }
+
+  void tie_scale(std::size_t held) {
+    const Vec3<S> centre = graph.views[held].cam_from_world.inverse().translation;
+    ScaleTie<S> tie{to_int(held), kNone, 0};
+    for (std::size_t v = 0; v < free_count; ++v) {
+      if (graph.views[v].hold != Hold::kNothing) continue;
+      const S distance = (graph.views[v].cam_from_world.inverse().translation - centre).norm();
+      if (distance > tie.distance) tie = {tie.held, to_int(v), distance};
+    }
+    if (tie.free != kNone) graph.scale = tie;
+  }
+
+  [[nodiscard]] static std::int32_t to_int(std::size_t i) noexcept { return static_cast<std::int32_t>(i); }
+
+  std::vector<std::int32_t> view_of_;  // by keyframe: its view, or kNone
+  std::vector<std::int32_t> votes_;    // by keyframe: observations of the window's landmarks
+  std::vector<std::uint8_t> marks_;    // by landmark
+  std::vector<KeyframeId> others_;
+};
+
+}  // namespace sslam

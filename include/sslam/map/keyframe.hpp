@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A frame that stays in the map: its features, which landmark each of them sees, and its neighbours.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sslam/geometry/se3.hpp"
+#include "sslam/map/frame.hpp"
+#include "sslam/map/landmark.hpp"
+
+namespace sslam {
+
+// The rotation that Manhattan structure alone gives a frame.
+template <Scalar S>
+struct RotationObservation {
+  SO3<S> cam_from_world;
+  Mat3<S> covariance = Mat3<S>::Zero();  // of the left perturbation, rad^2
+};
+
+struct Neighbour {
+  KeyframeId keyframe = kNone;
+  std::int32_t shared = 0;  // landmarks seen by both
+};
+
+template <Scalar S>
+struct Keyframe {
+  KeyframeId id = kNone;
+  Frame<S> frame;
+  SE3<S> cam_from_world;
+  std::vector<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
+  std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
+  std::vector<std::int8_t> line_axes;       // Manhattan axis of each line, kNone where there is none
+  std::optional<RotationObservation<S>> manhattan;
+  std::vector<Neighbour> neighbours;        // covisibility, most shared first
+};
+
+}  // namespace sslam

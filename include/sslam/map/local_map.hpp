@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of the map around a frame: the keyframes that share landmarks with it, their neighbours, and what they see.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "sslam/map/map.hpp"
+
+namespace sslam {
+
+// Keeps its buffers, and its marks by generation, so that a frame costs no allocation once the map stops growing.
+template <Scalar S>
+class LocalMap {
+ public:
+  std::vector<KeyframeId> keyframes;  // most relevant first
+  std::vector<LandmarkId> points;
+  std::vector<LandmarkId> lines;
+
+  // Keyframes that see the given landmarks, most votes first, at most `max_keyframes`; filled up with neighbours.
+  void gather(const Map<S>& map, std::span<const LandmarkId> seen_points, std::span<const LandmarkId> seen_lines,
+              std::size_t max_keyframes) {
+    votes_.assign(map.keyframes.size(), 0);
+    count(map, map.points, seen_points);
+    count(map, map.lines, seen_lines);
+    keyframes.clear();
+    for (std::size_t k = 0; k < votes_.size(); ++k)
+      if (votes_[k] > 0) keyframes.push_back(static_cast<KeyframeId>(k));
+    // Ties go to the newer keyframe.
+    std::stable_sort(keyframes.begin(), keyframes.end(), [&](KeyframeId a, KeyframeId b) {
+      const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
+      return va != vb ? va > vb : a > b;
+    });
+    if (keyframes.size() > max_keyframes) keyframes.resize(max_keyframes);
+    add_neighbours(map, max_keyframes);
+    collect(map);
+  }
+
+  // The given keyframe and its neighbours.
+  void gather_around(const Map<S>& map, KeyframeId centre, std::size_t max_keyframes) {
+    keyframes.assign(1, centre);
+    for (const Neighbour& n : map.keyframes[map.index(centre)].neighbours) {
+      if (keyframes.size() >= max_keyframes) break;
+      keyframes.push_back(n.keyframe);
+    }
+    collect(map);
+  }
+
+ private:
+  template <class Landmarks>
+  void count(const Map<S>& map, const Landmarks& landmarks, std::span<const LandmarkId> seen) {
+    for (const LandmarkId id : seen)
+      if (id != kNone)
+        for (const Observation& o : landmarks[map.index(id)].observations) ++votes_[map.index(o.keyframe)];
+  }
+
+  void add_neighbours(const Map<S>& map, std::size_t max_keyframes) {
+    const std::size_t direct = keyframes.size();
+    for (std::size_t i = 0; i < direct; ++i)
+      for (const Neighbour& n : map.keyframes[map.index(keyframes[i])].neighbours) {
+        if (keyframes.size() >= max_keyframes) return;
+        if (std::find(keyframes.begin(), keyframes.end(), n.keyframe) == keyframes.end())
+          keyframes.push_back(n.keyframe);
+      }
+  }
+
+  void collect(const Map<S>& map) {
+    ++generation_;
+    point_marks_.resize(map.points.size(), 0);
+    line_marks_.resize(map.lines.size(), 0);
+    points.clear();
+    lines.clear();
+    for (const KeyframeId k : keyframes) {
+      take_new(map.keyframes[map.index(k)].point_landmarks, point_marks_, points);
+      take_new(map.keyframes[map.index(k)].line_landmarks, line_marks_, lines);
+    }
+  }
+
+  void take_new(const std::vector<LandmarkId>& seen, std::vector<std::uint32_t>& marks,
+                std::vector<LandmarkId>& out) const {
+    for (const LandmarkId id : seen) {
+      if (id == kNone || marks[Map<S>::index(id)] == generation_) continue;
+      marks[Map<S>::index(id)] = generation_;
+      out.push_back(id);
+    }
+  }
+
+  std::vector<std::int32_t> votes_;
+  std::vector<std::uint32_t> point_marks_;
+  std::vector<std::uint32_t> line_marks_;
+  std::uint32_t generation_ = 0;
+};
+
+}  // namespace sslam

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map: keyframes and landmarks by id, and the bookkeeping that keeps observations and covisibility in step.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "sslam/map/keyframe.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class Map {
+ public:
+  using Scalar_ = S;
+
+  std::vector<Keyframe<S>> keyframes;
+  std::vector<PointLandmark<S>> points;
+  std::vector<LineLandmark<S>> lines;
+
+  [[nodiscard]] bool empty() const noexcept { return keyframes.empty(); }
+
+  // Takes the keyframe over, gives it its id, and enters it in the landmarks that it already observes.
+  KeyframeId add_keyframe(Keyframe<S> keyframe) {
+    const auto id = static_cast<KeyframeId>(keyframes.size());
+    keyframe.id = id;
+    keyframes.push_back(std::move(keyframe));
+    Keyframe<S>& kf = keyframes.back();
+    enter(kf.point_landmarks, points, id);
+    enter(kf.line_landmarks, lines, id);
+    for (std::size_t i = 0; i < kf.point_landmarks.size(); ++i)
+      if (kf.point_landmarks[i] != kNone) renew_point(kf.point_landmarks[i], kf, i);
+    for (std::size_t i = 0; i < kf.line_landmarks.size(); ++i)
+      if (kf.line_landmarks[i] != kNone)
+        lines[index(kf.line_landmarks[i])].descriptor = kf.frame.lines[i].descriptor;
+    update_covisibility(id);
+    return id;
+  }
+
+  LandmarkId add_point(const Vec3<S>& position, KeyframeId creator) {
+    PointLandmark<S> point;
+    point.position = position;
+    point.viewing_direction.setZero();
+    point.first_keyframe = creator;
+    point.visible = point.found = 1;
+    points.push_back(std::move(point));
+    return static_cast<LandmarkId>(points.size() - 1);
+  }
+
+  LandmarkId add_line(const Line3<S>& line, const Vec3<S>& start, const Vec3<S>& end, KeyframeId creator) {
+    LineLandmark<S> landmark;
+    landmark.line = line;
+    landmark.start = start;
+    landmark.end = end;
+    landmark.first_keyframe = creator;
+    landmark.visible = landmark.found = 1;
+    lines.push_back(std::move(landmark));
+    return static_cast<LandmarkId>(lines.size() - 1);
+  }
+
+  void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
+    Keyframe<S>& kf = keyframes[index(keyframe)];
+    kf.point_landmarks[feature] = id;
+    points[index(id)].observations.push_back({keyframe, static_cast<std::int32_t>(feature)});
+    renew_point(id, kf, feature);
+  }
+
+  void observe_line(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
+    Keyframe<S>& kf = keyframes[index(keyframe)];
+    kf.line_landmarks[feature] = id;
+    LineLandmark<S>& line = lines[index(id)];
+    line.observations.push_back({keyframe, static_cast<std::int32_t>(feature)});
+    line.descriptor = kf.frame.lines[feature].descriptor;
+    if (line.axis == kNone) line.axis = kf.line_axes.empty() ? std::int8_t{kNone} : kf.line_axes[feature];
+  }
+
+  void erase_point(LandmarkId id) { erase(points, id, &Keyframe<S>::point_landmarks); }
+  void erase_line(LandmarkId id) { erase(lines, id, &Keyframe<S>::line_landmarks); }
+
+  // Withdraws one observation; a landmark left with fewer than two goes too.
+  void forget_point(LandmarkId id, KeyframeId keyframe) {
+    if (forget(points, id, keyframe, &Keyframe<S>::point_landmarks)) erase_point(id);
+  }
+  void forget_line(LandmarkId id, KeyframeId keyframe) {
+    if (forget(lines, id, keyframe, &Keyframe<S>::line_landmarks)) erase_line(id);
+  }
+
+  // Hands the observations of `from` to `into`, where `into` has none in that keyframe, and erases `from`.
+  void fuse_points(LandmarkId from, LandmarkId into) {
+    hand_over(points, from, into, [&](const Observation& o) { observe_point(into, o.keyframe, index(o.feature)); });
+    erase_point(from);
+  }
+  void fuse_lines(LandmarkId from, LandmarkId into) {
+    hand_over(lines, from, into, [&](const Observation& o) { observe_line(into, o.keyframe, index(o.feature)); });
+    erase_line(from);
+  }
+
+  // Counts anew which keyframes share landmarks with this one, on both sides.
+  void update_covisibility(KeyframeId id) {
+    shared_.assign(keyframes.size(), 0);
+    Keyframe<S>& kf = keyframes[index(id)];
+    count_shared(kf.point_landmarks, points);
+    count_shared(kf.line_landmarks, lines);
+    shared_[index(id)] = 0;
+    kf.neighbours.clear();
+    for (std::size_t other = 0; other < shared_.size(); ++other) {
+      set_neighbour(keyframes[other].neighbours, {id, shared_[other]});
+      if (shared_[other] > 0) kf.neighbours.push_back({static_cast<KeyframeId>(other), shared_[other]});
+    }
+    sort_by_shared(kf.neighbours);
+  }
+
+  [[nodiscard]] static constexpr std::size_t index(std::int32_t id) noexcept { return static_cast<std::size_t>(id); }
+
+ private:
+  template <class Landmarks>
+  static void enter(std::vector<LandmarkId>& seen, Landmarks& landmarks, KeyframeId keyframe) {
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i] == kNone) continue;
+      auto& landmark = landmarks[index(seen[i])];
+      if (landmark.alive)
+        landmark.observations.push_back({keyframe, static_cast<std::int32_t>(i)});
+      else
+        seen[i] = kNone;
+    }
+  }
+
+  void renew_point(LandmarkId id, const Keyframe<S>& kf, std::size_t feature) {
+    PointLandmark<S>& point = points[index(id)];
+    const Vec3<S> to_camera = kf.cam_from_world.inverse().translation - point.position;
+    const S distance = to_camera.norm();
+    point.descriptor = kf.frame.points[feature].descriptor;
+    point.extent = kf.frame.points[feature].sigma * distance;
+    const auto n = static_cast<S>(point.observations.size());
+    const Vec3<S> mean = point.viewing_direction * (n - 1) + to_camera / std::max(distance, S(1e-9));
+    point.viewing_direction = mean.normalized();
+  }
+
+  template <class Landmarks, class Member>
+  void erase(Landmarks& landmarks, LandmarkId id, Member seen) {
+    auto& landmark = landmarks[index(id)];
+    for (const Observation& o : landmark.observations) {
+      LandmarkId& slot = (keyframes[index(o.keyframe)].*seen)[index(o.feature)];
+      if (slot == id) slot = kNone;
+    }
+    landmark.observations.clear();
+    landmark.observations.shrink_to_fit();
+    landmark.alive = false;
+  }
+
+  // True when too few observations are left.
+  template <class Landmarks, class Member>
+  [[nodiscard]] bool forget(Landmarks& landmarks, LandmarkId id, KeyframeId keyframe, Member seen) {
+    auto& observations = landmarks[index(id)].observations;
+    const auto gone = std::find_if(observations.begin(), observations.end(),
+                                   [&](const Observation& o) { return o.keyframe == keyframe; });
+    if (gone == observations.end()) return false;
+    (keyframes[index(keyframe)].*seen)[index(gone->feature)] = kNone;
+    observations.erase(gone);
+    return observations.size() < 2;
+  }
+
+  template <class Landmarks, class Observe>
+  void hand_over(Landmarks& landmarks, LandmarkId from, LandmarkId into, Observe observe) {
+    const std::vector<Observation> moved = landmarks[index(from)].observations;
+    for (const Observation& o : moved) {
+      const auto& has = landmarks[index(into)].observations;
+      if (std::none_of(has.begin(), has.end(), [&](const Observation& p) { return p.keyframe == o.keyframe; }))
+        observe(o);
+    }
+    landmarks[index(into)].visible += landmarks[index(from)].visible;
+    landmarks[index(into)].found += landmarks[index(from)].found;
+  }
+
+  template <class Landmarks>
+  void count_shared(const std::vector<LandmarkId>& seen, const Landmarks& landmarks) {
+    for (const LandmarkId id : seen)
+      if (id != kNone)
+        for (const Observation& o : landmarks[index(id)].observations) ++shared_[index(o.keyframe)];
+  }
+
+  static void set_neighbour(std::vector<Neighbour>& neighbours, Neighbour neighbour) {
+    std::erase_if(neighbours, [&](const Neighbour& n) { return n.keyframe == neighbour.keyframe; });
+    if (neighbour.shared == 0) return;
+    neighbours.push_back(neighbour);
+    sort_by_shared(neighbours);
+  }
+
+  static void sort_by_shared(std::vector<Neighbour>& neighbours) {
+    std::stable_sort(neighbours.begin(), neighbours.end(),
+                     [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
+  }
+
+  std::vector<std::int32_t> shared_;  // scratch of update_covisibility
+};
+
+}  // namespace sslam

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the pipeline asks of each of its stages. A model of your own that satisfies a concept plugs in as it is.
+#pragma once
+
+#include <concepts>
+
+#include "sslam/track/pose_estimate.hpp"
+#include "sslam/track/rotation.hpp"
+#include "sslam/track/translation.hpp"
+
+namespace sslam {
+
+// Estimates the frame's rotation from structure alone, without drift.
+template <class T, class S>
+concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& predicted, bool mapped) {
+  { stage.rotate(frame, predicted, mapped) } -> std::same_as<RotationAnswer<S>>;
+  stage.reset();
+};
+
+// Makes the first map from two frames.
+template <class T, class S>
+concept InitialisationStage = requires(T stage, TrackedFrame<S>& frame, Map<S>& map) {
+  { stage.start(frame, map) } -> std::same_as<Reason>;
+  stage.reset();
+};
+
+// Solves the translation of a frame whose rotation is known.
+template <class T, class S>
+concept TranslationStage =
+    requires(T stage, const Map<S>& map, const RecentLandmarks<S>& recent, TrackedFrame<S>& frame) {
+      { stage.translate(map, recent, frame) } -> std::same_as<PoseEstimate<S>>;
+    };
+
+// Solves all six degrees of freedom from recent frames or from one keyframe.
+template <class T, class S>
+concept FallbackStage = requires(T stage, const Map<S>& map, const RecentLandmarks<S>& recent, KeyframeId keyframe,
+                                 const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+  { stage.track(map, recent, prior, frame) } -> std::same_as<PoseEstimate<S>>;
+  { stage.track_keyframe(map, keyframe, prior, frame) } -> std::same_as<PoseEstimate<S>>;
+};
+
+// Checks a pose against the local map and refines it.
+template <class T, class S>
+concept RefinementStage = requires(T stage, Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+  { stage.refine(map, prior, frame) } -> std::same_as<PoseEstimate<S>>;
+};
+
+// Decides whether a tracked frame becomes a keyframe.
+template <class T, class S>
+concept KeyframeStage = requires(const T stage, const Map<S>& map, const TrackedFrame<S>& frame) {
+  { stage.choose(map, KeyframeId{}, frame, int{}, int{}, S{}) } -> std::same_as<bool>;
+};
+
+// Takes a keyframe into the map.
+template <class T, class S>
+concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
+  { stage.insert(map, frame, S{}) } -> std::same_as<KeyframeId>;
+  stage.begin(map, frame);
+  stage.reset();
+};
+
+}  // namespace sslam

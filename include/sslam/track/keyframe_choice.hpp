@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keyframe choice: a frame joins the map when it shares too little with its reference keyframe, or when it has moved
+// far enough to give new parallax.
+#pragma once
+
+#include "sslam/map/map.hpp"
+#include "sslam/track/tracked_frame.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class SharedFeatureKeyframes {
+ public:
+  S min_shared = S(0.8);       // share of the reference keyframe's landmarks that the frame still sees
+  S max_baseline = S(0.08);    // distance to the reference keyframe over the median scene depth
+  S max_turn = radians(S(12)); // rotation against the reference keyframe
+  int min_gap = 2;             // frames between keyframes
+
+  [[nodiscard]] bool choose(const Map<S>& map, KeyframeId reference, const TrackedFrame<S>& frame, int inliers,
+                            int frames_since, S median_depth) const {
+    if (frames_since < min_gap) return false;
+    const Keyframe<S>& keyframe = map.keyframes[map.index(reference)];
+    const auto held = [](const std::vector<LandmarkId>& v) {
+      return static_cast<S>(v.size()) - static_cast<S>(std::count(v.begin(), v.end(), kNone));
+    };
+    const S landmarks = held(keyframe.point_landmarks) + held(keyframe.line_landmarks);
+    const SE3<S> frame_from_reference = frame.cam_from_world * keyframe.cam_from_world.inverse();
+    return static_cast<S>(inliers) < min_shared * landmarks ||
+           frame_from_reference.translation.norm() > max_baseline * median_depth ||
+           frame_from_reference.rotation.log().norm() > max_turn;
+  }
+};
+
+// Keeps the map as initialisation left it.
+template <Scalar S>
+struct NoKeyframes {
+  [[nodiscard]] bool choose(const Map<S>&, KeyframeId, const TrackedFrame<S>&, int, int, S) const { return false; }
+};
+
+}  // namespace sslam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mapping: what happens when a frame becomes a keyframe. The optimiser is a policy: none, or bundle adjustment.
+#pragma once
+
+#include <concepts>
+
+#include "sslam/track/culling.hpp"
+#include "sslam/track/fusion.hpp"
+#include "sslam/track/new_landmarks.hpp"
+
+namespace sslam {
+
+// Improves poses and landmarks around a keyframe in place.
+template <class T, class S>
+concept MapOptimiser = requires(T optimiser, Map<S>& map, KeyframeId keyframe) {
+  { optimiser.optimise(map, keyframe) };
+};
+
+// Leaves the map as triangulation made it.
+template <Scalar S>
+struct NoOptimiser {
+  void optimise(Map<S>&, KeyframeId) {}
+};
+static_assert(MapOptimiser<NoOptimiser<double>, double>);
+
+template <Scalar S, MapOptimiser<S> Optimiser = NoOptimiser<S>>
+class KeyframeMapping {
+ public:
+  NewLandmarks<S> creation;
+  LandmarkFusion<S> fusion;
+  LandmarkCulling<S> culling;
+  Optimiser optimiser;
+
+  // The tracked frame joins the map; its pose and matches are updated with what mapping makes of them.
+  KeyframeId insert(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
+    const KeyframeId id = map.add_keyframe(frame.to_keyframe());
+    culling.cull(map, id);
+    creation.create(map, id, median_depth);
+    fusion.fuse(map, id);
+    map.update_covisibility(id);
+    optimiser.optimise(map, id);
+    read_back(map, id, frame);
+    return id;
+  }
+
+  void reset() { culling.reset(); }
+
+  static void read_back(const Map<S>& map, KeyframeId id, TrackedFrame<S>& frame) {
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    frame.cam_from_world = keyframe.cam_from_world;
+    frame.point_landmarks = keyframe.point_landmarks;
+    frame.line_landmarks = keyframe.line_landmarks;
+  }
+};
+
+}  // namespace sslam

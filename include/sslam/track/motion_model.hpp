@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Constant velocity between frames, by their stamps: a dropped frame makes a longer step, not a wrong one.
+#pragma once
+
+#include "sslam/geometry/se3.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class ConstantVelocity {
+ public:
+  // cam_from_world expected at `stamp`, seconds.
+  [[nodiscard]] SE3<S> predict(double stamp) const {
+    if (!moving_) return pose_;
+    return SE3<S>::exp(velocity_ * static_cast<S>(stamp - stamp_)) * pose_;
+  }
+
+  void update(const SE3<S>& cam_from_world, double stamp) {
+    const double dt = stamp - stamp_;
+    if (seen_ && dt > 0) {
+      velocity_ = (cam_from_world * pose_.inverse()).log() / static_cast<S>(dt);
+      moving_ = velocity_.allFinite();
+    }
+    pose_ = cam_from_world;
+    stamp_ = stamp;
+    seen_ = true;
+  }
+
+  // Forgets the velocity and keeps the pose: after a loss, or where a pose came from elsewhere.
+  void stop() noexcept { moving_ = seen_ = false; }
+
+ private:
+  SE3<S> pose_;
+  Vec6<S> velocity_ = Vec6<S>::Zero();  // left tangent of the pose per second
+  double stamp_ = 0;
+  bool seen_ = false;
+  bool moving_ = false;
+};
+
+}  // namespace sslam

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pipeline: one frame in, one pose out. Its stages are policies and public members, so that tuning one is
+// `pipeline.rotation.options.cone = ...` and replacing one is a template argument.
+#pragma once
+
+#include <utility>
+
+#include "sslam/track/concepts.hpp"
+#include "sslam/track/motion_model.hpp"
+#include "sslam/track/stage_timer.hpp"
+#include "sslam/track/trajectory_log.hpp"
+
+namespace sslam {
+
+template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisation, TranslationStage<S> Translation,
+          FallbackStage<S> Fallback, RefinementStage<S> Refinement, KeyframeStage<S> Keyframes,
+          MappingStage<S> Mapping, StageTimer Timer = NoTimer>
+class Pipeline {
+ public:
+  Rotation rotation;
+  Initialisation initialisation;
+  Translation translation;
+  Fallback fallback;
+  Refinement refinement;
+  Keyframes keyframes;
+  Mapping mapping;
+  Timer timer;
+
+  int relocalisation_tries = 3;  // keyframes to compare a lost frame with
+  int young_map = 5;             // keyframes: a map lost while it has fewer is given up and started anew
+  int give_up_after = 15;        // frames without a pose until that happens
+
+  // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
+  TrackResult<S> track(Frame<S>& frame) {
+    timer.begin();
+    rotate_buffers();
+    current_->adopt(frame);
+    TrackResult<S> result;
+    result.index = current_->frame.index;
+    result.stamp = current_->frame.stamp;
+    if (map_.empty())
+      initialise(result);
+    else
+      follow(result);
+    return result;
+  }
+
+  [[nodiscard]] const Map<S>& map() const noexcept { return map_; }
+  [[nodiscard]] const TrajectoryLog<S>& trajectory() const noexcept { return log_; }
+  [[nodiscard]] const TrackedFrame<S>& last_frame() const noexcept { return *current_; }
+
+ private:
+  void rotate_buffers() noexcept {
+    TrackedFrame<S>* const oldest = before_;
+    before_ = last_;
+    last_ = current_;
+    current_ = oldest;
+  }
+
+  void initialise(TrackResult<S>& result) {
+    result.state = State::kInitialising;
+    const SO3<S> predicted = last_->cam_from_world.rotation;
+    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, false);
+    result.axes_seen = answer.axes_seen;
+    current_->cam_from_world = {current_->manhattan ? current_->manhattan->cam_from_world : predicted, Vec3<S>::Zero()};
+    timer.end(Stage::kRotation);
+    result.reason = initialisation.start(*current_, map_);
+    timer.end(Stage::kInitialisation);
+    if (result.reason != Reason::kNone) return;
+    mapping.begin(map_, *current_);
+    timer.end(Stage::kMapping);
+    for (const Keyframe<S>& kf : map_.keyframes)
+      log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
+    log_.set_live(current_->cam_from_world);
+    reference_ = map_.keyframes.back().id;
+    frames_since_keyframe_ = 0;
+    report(result, answer.trusted ? State::kManhattan : State::kFallback);
+    result.keyframe = true;
+    motion_.stop();
+    motion_.update(current_->cam_from_world, result.stamp);
+  }
+
+  void follow(TrackResult<S>& result) {
+    recent_.gather(*last_, *before_);
+    const SE3<S> predicted = motion_.predict(result.stamp);
+    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted.rotation, true);
+    result.axes_seen = answer.axes_seen;
+    timer.end(Stage::kRotation);
+
+    const PoseEstimate<S> estimate = lost_frames_ == 0 ? track_pose(predicted, answer, result) : relocalise(result);
+    if (!estimate.ok()) return lose(result, estimate.reason);
+    result.point_inliers = estimate.point_inliers;
+    result.line_inliers = estimate.line_inliers;
+    result.cam_from_world = current_->cam_from_world;
+    if (lost_frames_ > 0) {
+      motion_.stop();
+      lost_frames_ = 0;
+      result.reason = Reason::kRelocalised;
+    }
+    consider_keyframe(result, estimate);
+    motion_.update(current_->cam_from_world, result.stamp);
+    log_.add(map_, result.index, result.stamp, reference_, current_->cam_from_world);
+  }
+
+  // The decoupled way first; where it does not hold, six degrees of freedom.
+  PoseEstimate<S> track_pose(const SE3<S>& predicted, const RotationAnswer<S>& answer, TrackResult<S>& result) {
+    std::optional<RotationPrior<S>> prior;
+    if (current_->manhattan) prior = make_prior(*current_->manhattan);
+    result.reason = Reason::kNoManhattanFrame;
+    if (answer.trusted) {
+      const Vec3<S> centre = predicted.inverse().translation;
+      const SO3<S>& turned = current_->manhattan->cam_from_world;
+      current_->cam_from_world = {turned, -(turned * centre)};
+      PoseEstimate<S> estimate = translation.translate(map_, recent_, *current_);
+      timer.end(Stage::kTranslation);
+      if (estimate.ok()) {
+        estimate = refinement.refine(map_, &*prior, *current_);
+        timer.end(Stage::kRefinement);
+        if (estimate.ok()) {
+          result.state = State::kManhattan;
+          result.reason = Reason::kNone;
+          return estimate;
+        }
+      }
+      prior.reset();  // it has just been found wanting
+      result.reason = Reason::kManhattanRejected;
+    }
+    result.state = State::kFallback;
+    return track_features(predicted, prior ? &*prior : nullptr);
+  }
+
+  PoseEstimate<S> track_features(const SE3<S>& predicted, const RotationPrior<S>* prior) {
+    current_->cam_from_world = predicted;
+    PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, *current_);
+    if (!estimate.ok()) {
+      current_->cam_from_world = last_->cam_from_world;
+      estimate = fallback.track_keyframe(map_, reference_, prior, *current_);
+    }
+    timer.end(Stage::kFallback);
+    if (!estimate.ok()) return estimate;
+    estimate = refinement.refine(map_, prior, *current_);
+    timer.end(Stage::kRefinement);
+    return estimate;
+  }
+
+  // Compares a lost frame with its last reference first, then with the other keyframes in turn.
+  PoseEstimate<S> relocalise(TrackResult<S>& result) {
+    result.state = State::kFallback;
+    PoseEstimate<S> estimate;
+    const auto count = static_cast<int>(map_.keyframes.size());
+    for (int i = 0; i < std::min(relocalisation_tries, count) && !estimate.ok(); ++i) {
+      const KeyframeId candidate = i == 0 ? reference_ : static_cast<KeyframeId>(next_candidate_++ % count);
+      current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
+      estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
+      if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
+      if (estimate.ok()) reference_ = candidate;
+    }
+    timer.end(Stage::kFallback);
+    return estimate;
+  }
+
+  void lose(TrackResult<S>& result, Reason reason) {
+    result.state = State::kLost;
+    result.reason = reason;
+    current_->forget_matches();
+    current_->cam_from_world = last_->cam_from_world;
+    if (++lost_frames_ < give_up_after || static_cast<int>(map_.keyframes.size()) >= young_map) return;
+    map_ = Map<S>();
+    log_.clear();
+    rotation.reset();
+    initialisation.reset();
+    mapping.reset();
+    motion_.stop();
+    lost_frames_ = 0;
+  }
+
+  void consider_keyframe(TrackResult<S>& result, const PoseEstimate<S>& estimate) {
+    ++frames_since_keyframe_;
+    scratch_.gather(map_, *current_);
+    const S depth = scratch_.median_depth(current_->cam_from_world);
+    const int inliers = estimate.point_inliers + estimate.line_inliers;
+    if (!keyframes.choose(map_, reference_, *current_, inliers, frames_since_keyframe_, depth)) return;
+    reference_ = mapping.insert(map_, *current_, depth);
+    frames_since_keyframe_ = 0;
+    result.keyframe = true;
+    timer.end(Stage::kMapping);
+  }
+
+  void report(TrackResult<S>& result, State state) {
+    scratch_.gather(map_, *current_);
+    result.state = state;
+    result.cam_from_world = current_->cam_from_world;
+    result.point_inliers = scratch_.point_inlier_count();
+    result.line_inliers = scratch_.line_inlier_count();
+  }
+
+  static RotationPrior<S> make_prior(const RotationObservation<S>& observation) {
+    return {observation.cam_from_world, observation.covariance.inverse()};
+  }
+
+  Map<S> map_;
+  TrajectoryLog<S> log_;
+  TrackedFrame<S> buffers_[3];
+  TrackedFrame<S>* current_ = &buffers_[0];
+  TrackedFrame<S>* last_ = &buffers_[1];
+  TrackedFrame<S>* before_ = &buffers_[2];
+  RecentLandmarks<S> recent_;
+  ConstantVelocity<S> motion_;
+  Correspondences<S> scratch_;
+  KeyframeId reference_ = kNone;
+  int frames_since_keyframe_ = 0;
+  int lost_frames_ = 0;
+  int next_candidate_ = 0;
+};
+
+}  // namespace sslam

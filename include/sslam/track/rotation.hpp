@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rotation stage: where the Manhattan frame is seen, it gives each frame's rotation without drift.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "sslam/manhattan/rotation.hpp"
+#include "sslam/manhattan/search.hpp"
+#include "sslam/track/tracked_frame.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct RotationAnswer {
+  int axes_seen = 0;
+  bool trusted = false;  // all three degrees of freedom are known well enough to fix them
+};
+
+template <Scalar S>
+class ManhattanRotation {
+ public:
+  ManhattanOptions<S> options;
+  std::uint64_t seed = 1;
+  S squareness = radians(S(0.5));   // how far walls and edges stand from right angles: floor of every sigma
+  S max_sigma = radians(S(1.5));    // largest standard deviation, about any axis, of a trusted rotation
+  int confirmations = 3;            // frames in a row that must agree before a late Manhattan frame is believed
+  S agreement = radians(S(2));      // between them
+
+  // Estimates the frame's rotation near the prediction and leaves it, with the axes of its lines, in the frame.
+  // `mapped` says whether the world is already fixed: before, the first Manhattan frame becomes the world.
+  RotationAnswer<S> rotate(TrackedFrame<S>& frame, const SO3<S>& predicted_cam_from_world, bool mapped) {
+    gather_votes(frame.frame);
+    const auto& n = frame.frame.normals;
+    const NormalView<float> normals{n.x.data(), n.y.data(), n.z.data(), n.weight.data(), n.size()};
+    frame.line_axes.assign(frame.frame.lines.size(), kNone);
+    ManhattanEstimate<S> estimate;
+    if (world_from_manhattan_) {
+      const SO3<S> prior = predicted_cam_from_world * *world_from_manhattan_;
+      estimate = track_manhattan<S>(normals, votes_, prior, options, frame.line_axes);
+    } else {
+      estimate = search(normals, predicted_cam_from_world, mapped, frame);
+    }
+    if (!usable(estimate.status) || !world_from_manhattan_) return {};
+    return answer(estimate, frame);
+  }
+
+  [[nodiscard]] bool anchored() const noexcept { return world_from_manhattan_.has_value(); }
+  void reset() {
+    world_from_manhattan_.reset();
+    candidate_.reset();
+  }
+
+ private:
+  void gather_votes(const Frame<S>& frame) {
+    votes_.clear();
+    for (const LineFeature<S>& line : frame.lines) {
+      const S length = line.segment.length();
+      // Ends that are off by sigma across the segment turn it by about sqrt(2) sigma / length.
+      const S sigma = std::sqrt(S(2)) * line.sigma / std::max(length, S(1));
+      votes_.push_back({interpretation_plane(line.segment, frame.pinhole), sigma});
+    }
+  }
+
+  ManhattanEstimate<S> search(const NormalView<float>& normals, const SO3<S>& predicted, bool mapped,
+                              TrackedFrame<S>& frame) {
+    ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, options, seed, frame.line_axes);
+    if (!usable(estimate.status) || estimate.axes_seen < 2) {
+      candidate_.reset();
+      return estimate;
+    }
+    if (!mapped) {
+      world_from_manhattan_ = SO3<S>();
+      return estimate;
+    }
+    const SO3<S> world_from_manhattan = predicted.inverse() * estimate.cam_from_manhattan;
+    const SO3<S> named = candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
+    if (candidate_ && angle_between(named, *candidate_) < agreement) {
+      if (++agreed_ >= confirmations) world_from_manhattan_ = named;
+    } else {
+      candidate_ = named;
+      agreed_ = 1;
+    }
+    return estimate;
+  }
+
+  RotationAnswer<S> answer(const ManhattanEstimate<S>& estimate, TrackedFrame<S>& frame) const {
+    RotationObservation<S> observation;
+    observation.cam_from_world = estimate.cam_from_manhattan * world_from_manhattan_->inverse();
+    observation.covariance = estimate.covariance + squareness * squareness * Mat3<S>::Identity();
+    frame.manhattan = observation;
+    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(observation.covariance, Eigen::EigenvaluesOnly);
+    return {estimate.axes_seen, std::sqrt(eigen.eigenvalues().z()) < max_sigma};
+  }
+
+  std::vector<LineVote<S>> votes_;
+  std::optional<SO3<S>> world_from_manhattan_;
+  std::optional<SO3<S>> candidate_;  // of a late Manhattan frame, world from Manhattan
+  int agreed_ = 0;
+};
+
+// No Manhattan world: every frame takes the fallback.
+template <Scalar S>
+struct NoRotation {
+  RotationAnswer<S> rotate(TrackedFrame<S>&, const SO3<S>&, bool) { return {}; }
+  void reset() {}
+};
+
+}  // namespace sslam

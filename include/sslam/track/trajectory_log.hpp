@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The trajectory, kept relative to reference keyframes: when mapping moves a keyframe, its frames move along.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sslam/map/map.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct TrajectoryEntry {
+  std::int64_t index = -1;  // position in the dataset
+  double stamp = 0;         // seconds
+  KeyframeId reference = kNone;
+  SE3<S> frame_from_reference;
+};
+
+template <Scalar S>
+class TrajectoryLog {
+ public:
+  void add(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference, const SE3<S>& cam_from_world) {
+    const SE3<S>& keyframe = map.keyframes[map.index(reference)].cam_from_world;
+    entries_.push_back({index, stamp, reference, cam_from_world * keyframe.inverse()});
+  }
+
+  // cam_from_world of an entry, by its keyframe's pose as it is now.
+  [[nodiscard]] static SE3<S> pose(const Map<S>& map, const TrajectoryEntry<S>& entry) {
+    return entry.frame_from_reference * map.keyframes[map.index(entry.reference)].cam_from_world;
+  }
+
+  [[nodiscard]] const std::vector<TrajectoryEntry<S>>& entries() const noexcept { return entries_; }
+  void clear() noexcept { entries_.clear(); }
+
+ private:
+  std::vector<TrajectoryEntry<S>> entries_;
+};
+
+}  // namespace sslam
