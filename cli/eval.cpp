@@ -53,7 +53,7 @@ void run_eval(EvalSettings settings) {
   print_warnings(warnings);
   io::EvaluationOptions& options = settings.options;
   options.seconds_per_stamp = truth.seconds_per_stamp;
-  if (options.frames == 0) options.frames = truth.frames;
+  if (options.frames == 0) options.frame_stamps = truth.frame_stamps;
   if (!settings.deltas.empty()) options.deltas.clear();
   for (const std::string& text : settings.deltas) options.deltas.push_back(parse_delta(text).value());
   const io::Evaluation evaluation = io::evaluate(truth.trajectory, estimate, options);
@@ -85,7 +85,7 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("ESTIMATE", settings->estimate, "trajectory in TUM format, camera to world")->required();
   eval->add_option("--align", options.alignment,
                    "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3")
-      ->transform(CLI::Transformer(alignments).description(""));
+      ->transform(CLI::CheckedTransformer(alignments).description(""));
   eval->add_option("--max-difference", options.max_difference, "between the stamps of a pair; default 0.02")
       ->check(CLI::PositiveNumber);
   eval->add_option("--delta", settings->deltas,
@@ -98,7 +98,7 @@ void add_eval_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   eval->add_option("--axes", settings->axes,
                    "axes of GROUNDTRUTH: y-down, y-up (ICL-NUIM as published), auto; default auto")
-      ->transform(CLI::Transformer(axes).description(""));
+      ->transform(CLI::CheckedTransformer(axes).description(""));
   eval->add_option("--json", settings->json, "write the figures to this file");
   eval->add_option("--plot", settings->plot, "draw both trajectories from above into this SVG file");
   eval->callback([settings] { run_eval(*settings); });

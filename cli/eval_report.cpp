@@ -42,11 +42,11 @@ nlohmann::ordered_json statistics_json(const io::Statistics& s) {
 
 std::string evaluation_table(const io::Evaluation& e) {
   std::string text;
-  if (e.options.frames > 0) {
-    text += line("frames tracked   %zu of %zu (%.1f %%)\n", e.poses, e.options.frames, 100 * e.share_tracked);
-  } else {
-    text += line("poses            %zu\n", e.poses);
+  if (e.frames > 0) {
+    const double share = static_cast<double>(e.tracked) / static_cast<double>(e.frames);
+    text += line("frames tracked   %zu of %zu (%.1f %%)\n", e.tracked, e.frames, 100 * share);
   }
+  text += line("poses            %zu\n", e.poses);
   text += line("compared         %zu, stamps within %g\n", e.pairs, e.options.max_difference);
   text += line("path             %.3f m, estimate %.3f m after alignment\n", e.truth_path, e.estimate_path);
   text += "alignment        " + std::string(name(e.options.alignment));
@@ -71,9 +71,9 @@ nlohmann::ordered_json evaluation_json(const io::Evaluation& e) {
   json["pairs"] = e.pairs;
   json["frames"] = nullptr;
   json["share_tracked"] = nullptr;
-  if (e.options.frames > 0) {
-    json["frames"] = e.options.frames;
-    json["share_tracked"] = e.share_tracked;
+  if (e.frames > 0) {
+    json["frames"] = e.frames;
+    json["share_tracked"] = static_cast<double>(e.tracked) / static_cast<double>(e.frames);
   }
   json["max_difference"] = e.options.max_difference;
   json["alignment"] = {{"type", name(e.options.alignment)},

@@ -15,7 +15,7 @@ TruthSource from_folder(const std::filesystem::path& folder, FileAxes axes) {
   TruthSource source;
   source.trajectory = std::move(dataset.ground_truth);
   source.seconds_per_stamp = dataset.seconds_per_stamp;
-  source.frames = dataset.frames.size();
+  source.frame_stamps = io::frame_stamps(dataset);
   source.warnings = std::move(dataset.warnings);
   // The reader has turned ICL-NUIM's poses already.
   const bool turned = dataset.layout == io::Layout::kIclNuim;
@@ -48,7 +48,7 @@ TruthSource load_truth(const std::filesystem::path& path, FileAxes axes) {
   const std::optional<io::Dataset> dataset = dataset_around(path);
   const bool icl_nuim =
       path.extension() == ".freiburg" || (dataset && dataset->layout == io::Layout::kIclNuim);
-  if (dataset) source.frames = dataset->frames.size();
+  if (dataset) source.frame_stamps = io::frame_stamps(*dataset);
   if (icl_nuim) source.seconds_per_stamp = 1 / io::kIclNuimFrameRate;
   source.mirrored = axes == FileAxes::kAuto ? icl_nuim : axes == FileAxes::kYUp;
   if (source.mirrored) io::mirror_y(source.trajectory);

@@ -2,9 +2,8 @@
 // A ground truth as the user names it: a trajectory file or a dataset folder, turned to our axes.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <string>
+#include <vector>
 
 #include "sslam/io/trajectory.hpp"
 
@@ -13,10 +12,10 @@ namespace sslam::cli {
 enum class FileAxes { kAuto, kYDown, kYUp };
 
 struct TruthSource {
-  io::Trajectory trajectory;     // y down
-  double seconds_per_stamp = 1;  // ICL-NUIM stamps count frames
-  std::size_t frames = 0;        // images of the dataset around it; 0: not known
-  bool mirrored = false;         // the file had y up
+  io::Trajectory trajectory;         // y down
+  double seconds_per_stamp = 1;      // ICL-NUIM stamps count frames
+  std::vector<double> frame_stamps;  // of the images of the dataset around it; empty: not known
+  bool mirrored = false;             // the file had y up
   io::Warnings warnings;
 };
 

@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "sslam/geometry/sim3.hpp"
@@ -36,7 +37,9 @@ enum class Alignment { kNone, kSe3, kSim3 };
   to_from.scale = 1;
   to_from.translation.setZero();
   if (alignment == Alignment::kNone) return to_from;
-  if (from.size() != to.size() || from.size() < 3) throw Error("alignment needs at least 3 pairs of poses");
+  if (from.size() != to.size() || from.size() < 3) {
+    throw Error("alignment needs at least 3 pairs of poses, found " + std::to_string(from.size()));
+  }
 
   const double n = static_cast<double>(from.size());
   Vec3<double> from_mean = Vec3<double>::Zero();

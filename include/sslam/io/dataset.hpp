@@ -37,6 +37,13 @@ struct Dataset {
   Warnings warnings;
 };
 
+[[nodiscard]] inline std::vector<double> frame_stamps(const Dataset& dataset) {
+  std::vector<double> stamps;
+  stamps.reserve(dataset.frames.size());
+  for (const FrameEntry& frame : dataset.frames) stamps.push_back(frame.stamp);
+  return stamps;
+}
+
 // Part of a sequence: positions start <= i < end in steps of stride; a negative end means all.
 struct Slice {
   std::int64_t start = 0;
@@ -62,8 +69,7 @@ inline void apply_slice(Dataset& dataset, const Slice& slice) {
 // Gives each frame the pose nearest in time. Throws Error when no frame gets one: a ground truth on another
 // clock is a mistake to hear of before the run.
 inline void attach_ground_truth(Dataset& dataset, Trajectory truth, const std::filesystem::path& source) {
-  std::vector<double> stamps;
-  for (const FrameEntry& frame : dataset.frames) stamps.push_back(frame.stamp);
+  const std::vector<double> stamps = frame_stamps(dataset);
   const std::vector<double> truth_stamps = stamps_of(truth);
   const std::vector<StampPair> pairs = associate(stamps, truth_stamps, kMaxStampDifference);
   if (pairs.empty() && !stamps.empty()) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sslam/geometry/nearest_rotation.hpp"
 #include "sslam/io/alignment.hpp"
 #include "sslam/io/association.hpp"
 #include "sslam/io/statistics.hpp"
@@ -29,7 +30,8 @@ struct EvaluationOptions {
   Alignment alignment = Alignment::kSim3;
   double max_difference = kMaxStampDifference;  // between the stamps of a pair, in their unit
   double seconds_per_stamp = 1;                 // for deltas in seconds
-  std::size_t frames = 0;                       // images that could have been tracked; 0: not known
+  std::vector<double> frame_stamps;  // of the images that could have been tracked; empty: not known
+  std::size_t frames = 0;            // their number, where only that is known; 0: not known
   std::vector<Delta> deltas{{1, DeltaUnit::kFrames}, {1, DeltaUnit::kSeconds}};
 };
 
@@ -41,9 +43,10 @@ struct RelativeError {
 
 struct Evaluation {
   EvaluationOptions options;
-  std::size_t poses = 0;     // in the estimate
-  std::size_t pairs = 0;     // of them, those with a ground truth pose
-  double share_tracked = 0;  // poses / frames; 0 when frames is not known
+  std::size_t poses = 0;    // in the estimate
+  std::size_t pairs = 0;    // of them, those with a ground truth pose
+  std::size_t frames = 0;   // that could have been tracked; 0: not known
+  std::size_t tracked = 0;  // of them, those with a pose
   Sim3<double> truth_from_estimate;
   Statistics position;             // ATE: distance after alignment, metres
   Statistics rotation;             // angle after the same alignment, radians
@@ -104,10 +107,10 @@ struct PairedPoses {
     sum += paired.truth[i].world_from_cam.rotation.matrix() *
            paired.estimate[i].world_from_cam.rotation.matrix().transpose();
   }
-  const Eigen::JacobiSVD<Mat3<double>> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3<double> sign = Vec3<double>::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign.z() = -1;
-  return SO3<double>::from_matrix(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose());
+  // Where the nearest is not unique the rotations contradict each other, and no offset is better than none.
+  SO3<double> offset;
+  if (!usable(nearest_rotation(sum, offset))) return {};
+  return offset;
 }
 
 // Index of the far end of the step that starts at pose i, as the TUM tools choose it: the pose nearest to the
@@ -154,8 +157,10 @@ struct PairedPoses {
   result.options = options;
   result.poses = estimate.size();
   result.pairs = paired.estimate.size();
-  if (options.frames > 0)
-    result.share_tracked = static_cast<double>(result.poses) / static_cast<double>(options.frames);
+  result.frames = options.frame_stamps.empty() ? options.frames : options.frame_stamps.size();
+  result.tracked = options.frame_stamps.empty()
+                       ? estimate.size()
+                       : associate(options.frame_stamps, stamps_of(estimate), options.max_difference).size();
   result.truth_from_estimate = align(positions, true_positions, options.alignment);
   std::vector<double> distances;
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -170,16 +175,6 @@ struct PairedPoses {
   }
   result.truth_path = path_length(paired.truth);
   result.estimate_path = result.truth_from_estimate.scale * path_length(paired.estimate);
-  return result;
-}
-
-// The whole estimate in the ground truth's world.
-[[nodiscard]] inline Trajectory aligned(const Trajectory& estimate, const Sim3<double>& truth_from_estimate) {
-  Trajectory result = estimate;
-  for (StampedPose& pose : result) {
-    pose.world_from_cam.translation = truth_from_estimate * pose.world_from_cam.translation;
-    pose.world_from_cam.rotation = truth_from_estimate.rotation * pose.world_from_cam.rotation;
-  }
   return result;
 }
 

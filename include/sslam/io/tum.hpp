@@ -47,9 +47,8 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list) {
   std::vector<StampedFile> files = read_file_list(list, dataset.root, dataset.warnings);
   std::stable_sort(files.begin(), files.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  std::vector<double> stamps;
+  const std::vector<double> stamps = frame_stamps(dataset);
   std::vector<double> depth_stamps;
-  for (const FrameEntry& frame : dataset.frames) stamps.push_back(frame.stamp);
   for (const StampedFile& file : files) depth_stamps.push_back(file.stamp);
   std::size_t absent = 0;
   std::filesystem::path first_absent;
