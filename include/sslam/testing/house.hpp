@@ -52,7 +52,8 @@ class HouseBuilder {
         decor_(scene_, options.richness, options.texel, random_.next()),
         furniture_(scene_, decor_) {}
 
-  [[nodiscard]] House build() {
+  template <class ForEach>
+  [[nodiscard]] House build(const ForEach& for_each) {
     if (options_.rooms == 3) {
       build_rooms();
     } else {
@@ -63,7 +64,7 @@ class HouseBuilder {
       walked_.push_back(path.world_from_cam(t).translation.head<2>());
     }
     furnish();
-    bake_lighting(scene_, options_.lighting);
+    bake_lighting(scene_, options_.lighting, for_each);
     return {std::move(scene_), std::move(path)};
   }
 
@@ -310,7 +311,10 @@ class HouseBuilder {
   std::vector<Footprint2> placed_;
 };
 
-// The same options give the same house, bit by bit.
-[[nodiscard]] inline House build_house(const HouseOptions& options) { return HouseBuilder(options).build(); }
+// The same options give the same house, bit by bit; for_each as in bake_lighting.
+template <class ForEach = InOrder>
+[[nodiscard]] House build_house(const HouseOptions& options, const ForEach& for_each = {}) {
+  return HouseBuilder(options).build(for_each);
+}
 
 }  // namespace sslam::synth

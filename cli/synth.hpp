@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Renders a synthetic house into a folder in the TUM RGB-D layout.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sslam/testing/house.hpp"
+#include "sslam/testing/sensor.hpp"
+
+namespace sslam::cli {
+
+struct SynthSettings {
+  std::string folder;
+  synth::HouseOptions house;
+  synth::SensorOptions sensor;
+  int frames = 0;              // 0: one lap of the path
+  double rate = 30.0;          // frames per second
+  int width = 640, height = 480;
+  double focal = 0.0;          // pixels; 0: three quarters of the width, a view of 67 degrees
+  double blur = 0.0;           // share of the frame time that the shutter is open
+  std::string image_format = "jpg";
+  bool depth = true, normals = true;
+  int threads = 0;             // 0: one for each processor
+  bool quiet = false;
+};
+
+struct SynthReport {
+  int frames = 0;
+  double path_metres = 0.0;
+  double build_seconds = 0.0, render_seconds = 0.0;
+  bool interrupted = false;
+};
+
+// Throws io::Error, in one line, when the folder cannot be written or holds another data set.
+SynthReport synthesise(const SynthSettings& settings);
+
+}  // namespace sslam::cli
