@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the map that one bundle adjustment sees: free keyframes, held ones, and the landmarks between them.
+// The part of the map that one bundle adjustment sees: free keyframes, held ones, and the landmarks between
+// them.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -13,11 +14,11 @@ namespace sslam {
 
 template <Scalar S>
 struct BundleWindowOptions {
-  std::size_t max_free = 7;    // keyframes that move: the newest and its closest neighbours
-  std::size_t max_held = 15;   // keyframes around them that see the same landmarks and stay where they are
-  bool manhattan = true;       // tie keyframe rotations and line directions to the Manhattan axes
-  SO3<S> world_from_manhattan;               // its columns are the axes that lines follow
-  S rotation_floor = radians(S(0.2));        // standard deviation that no Manhattan rotation falls below
+  std::size_t max_free = 7;     // keyframes that move: the newest and its closest neighbours
+  std::size_t max_held = 15;    // keyframes around them that see the same landmarks and stay where they are
+  bool manhattan = true;        // tie keyframe rotations and line directions to the Manhattan axes
+  SO3<S> world_from_manhattan;  // its columns are the axes that lines follow
+  S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
 };
 
 // Keeps its buffers: gathering stops allocating once the window stops growing.
@@ -51,12 +52,14 @@ class BundleWindow {
   void build(const Map<S>& map, const BundleWindowOptions<S>& options) {
     free_count = keyframes.size();
     view_of_.assign(map.keyframes.size(), kNone);
-    for (std::size_t v = 0; v < free_count; ++v) view_of_[map.index(keyframes[v])] = static_cast<std::int32_t>(v);
+    for (std::size_t v = 0; v < free_count; ++v)
+      view_of_[map.index(keyframes[v])] = static_cast<std::int32_t>(v);
     collect(map, map.points, &Keyframe<S>::point_landmarks, points);
     collect(map, map.lines, &Keyframe<S>::line_landmarks, lines);
     hold_others(map, options.max_held);
     graph.clear();
-    for (std::size_t v = 0; v < keyframes.size(); ++v) add_view(map.keyframes[map.index(keyframes[v])], v, options);
+    for (std::size_t v = 0; v < keyframes.size(); ++v)
+      add_view(map.keyframes[map.index(keyframes[v])], v, options);
     add_points(map);
     add_lines(map, options);
     fix_gauge();
@@ -101,7 +104,8 @@ class BundleWindow {
   void add_view(const Keyframe<S>& kf, std::size_t view, const BundleWindowOptions<S>& options) {
     BundleView<S> out{kf.cam_from_world, kf.frame.pinhole, Hold::kNothing, std::nullopt};
     if (view >= free_count) out.hold = Hold::kPose;
-    if (view < free_count && options.manhattan && kf.manhattan) out.rotation = make_tie(*kf.manhattan, options);
+    if (view < free_count && options.manhattan && kf.manhattan)
+      out.rotation = make_tie(*kf.manhattan, options);
     graph.views.push_back(out);
   }
 
@@ -153,9 +157,9 @@ class BundleWindow {
     });
   }
 
-  // Seven degrees of freedom are open when nothing is held. The map's first keyframe, or else the oldest here, keeps
-  // its place, and its rotation too unless a Manhattan frame says what that is. When nothing else is held, scale
-  // is tied to the distance of the farthest view from it.
+  // Seven degrees of freedom are open when nothing is held. The map's first keyframe, or else the oldest
+  // here, keeps its place, and its rotation too unless a Manhattan frame says what that is. When nothing else
+  // is held, scale is tied to the distance of the farthest view from it.
   void fix_gauge() {
     const auto end = keyframes.begin() + static_cast<std::ptrdiff_t>(free_count);
     const auto oldest = std::min_element(keyframes.begin(), end);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the result of a bundle adjustment into the map: poses, landmarks, and which observations do not fit them.
+// Takes the result of a bundle adjustment into the map: poses, landmarks, and which observations do not fit
+// them.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,12 @@ namespace sslam {
 
 template <Scalar S>
 struct BundleWriteBackOptions {
-  S point_gate = S(5.991);     // squared error in sigmas above which an observation goes: chi-square, 2 degrees, 95 %
-  S line_gate = S(5.991);      // both endpoints together
-  S axis_gate = S(13.8);       // above which a line no longer follows its axis: 99.9 %
-  S max_outliers = S(0.3);     // share of the observations; more than that and the result itself is not believed
-  S min_ray_sine = S(0.1);     // angle between a ray and the line it trims, below which it says nothing
+  S point_gate =
+      S(5.991);  // squared error in sigmas above which an observation goes: chi-square, 2 degrees, 95 %
+  S line_gate = S(5.991);   // both endpoints together
+  S axis_gate = S(13.8);    // above which a line no longer follows its axis: 99.9 %
+  S max_outliers = S(0.3);  // share of the observations; more than that and the result itself is not believed
+  S min_ray_sine = S(0.1);  // angle between a ray and the line it trims, below which it says nothing
 };
 
 template <Scalar S>
@@ -56,18 +58,20 @@ class BundleWriteBack {
       for (auto e = graph.points[i].first_edge; e < graph.points[i].last_edge; ++e) {
         const PointEdge<S>& edge = graph.point_edges[Map<S>::index(e)];
         const BundleView<S>& view = graph.views[Map<S>::index(edge.view)];
-        Vec2<S> r;
-        const bool seen = point_residual(view.pinhole, view.cam_from_world, graph.points[i].position, edge.pixel, r);
-        if (!seen || !(r.squaredNorm() * edge.inverse_sigma * edge.inverse_sigma <= options.point_gate))
+        PointReprojection<S> r;
+        const bool seen =
+            point_reprojection(view.pinhole, view.cam_from_world, graph.points[i].position, edge.pixel, r);
+        if (!seen || !((r.error * edge.inverse_sigma).squaredNorm() <= options.point_gate))
           point_outliers_.emplace_back(window.points[i], window.keyframes[Map<S>::index(edge.view)]);
       }
     for (std::size_t i = 0; i < graph.lines.size(); ++i)
       for (auto e = graph.lines[i].first_edge; e < graph.lines[i].last_edge; ++e) {
         const LineEdge<S>& edge = graph.line_edges[Map<S>::index(e)];
         const BundleView<S>& view = graph.views[Map<S>::index(edge.view)];
-        Vec2<S> r;
-        const bool seen = line_residual(view.pinhole, view.cam_from_world, graph.lines[i].line, edge.segment, r);
-        if (!seen || !(r.squaredNorm() * edge.inverse_sigma * edge.inverse_sigma <= options.line_gate))
+        LineReprojection<S> r;
+        const bool seen =
+            line_reprojection(view.pinhole, view.cam_from_world, graph.lines[i].line, edge.segment, r);
+        if (!seen || !((r.error * edge.inverse_sigma).squaredNorm() <= options.line_gate))
           line_outliers_.emplace_back(window.lines[i], window.keyframes[Map<S>::index(edge.view)]);
       }
   }
@@ -107,7 +111,8 @@ class BundleWriteBack {
       const Keyframe<S>& kf = map.keyframes[map.index(o.keyframe)];
       const Segment2<S>& segment = kf.frame.lines[map.index(o.feature)].segment;
       S a, b;
-      if (!place(kf, segment.start, line.line, origin, along, a) || !place(kf, segment.end, line.line, origin, along, b))
+      if (!place(kf, segment.start, line.line, origin, along, a) ||
+          !place(kf, segment.end, line.line, origin, along, b))
         continue;
       lows_.push_back(std::min(a, b));
       highs_.push_back(std::max(a, b));
@@ -130,7 +135,7 @@ class BundleWriteBack {
     const SE3<S> world_from_cam = kf.cam_from_world.inverse();
     const Vec3<S> ray = (world_from_cam.rotation * kf.frame.pinhole.unproject(pixel)).normalized();
     if (ray.cross(line.direction).norm() < options.min_ray_sine) return false;
-    const Vec3<S> at = line.closest_on_line_to_ray(world_from_cam.translation, ray);
+    const Vec3<S> at = line.closest_to_ray(world_from_cam.translation, ray);
     if ((at - world_from_cam.translation).dot(ray) <= 0) return false;
     out = (at - origin).dot(along);
     return true;

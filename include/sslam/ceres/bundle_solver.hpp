@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solves a BundleGraph with Ceres: landmarks are eliminated first, what remains is dense and small.
+#pragma once
+
+#include <ceres/loss_function.h>
+#include <ceres/ordered_groups.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "sslam/ceres/cost_functions.hpp"
+#include "sslam/solver/bundle_summary.hpp"
+
+namespace sslam {
+
+struct CeresBundleOptions {
+  int max_iterations = 8;
+  double function_tolerance = 1e-4;  // relative decrease of the cost below which it stops
+  int num_threads = 1;
+  bool sparse = false;  // of the reduced system: worth it for hundreds of keyframes
+  BundleLosses<double> losses;
+};
+
+class CeresBundleSolver {
+ public:
+  CeresBundleOptions options;
+
+  CeresBundleSolver() = default;
+  explicit CeresBundleSolver(const CeresBundleOptions& o) : options(o) {}
+
+  // On failure the graph is left as it was.
+  BundleSummary solve(BundleGraph<double>& graph) {
+    ceres::Problem problem(problem_options());
+    load(graph);
+    ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
+    add_points(graph, problem);
+    add_lines(graph, problem);
+    add_views(graph, problem);
+    ceres::Solver::Summary answer;
+    if (problem.NumResidualBlocks() > 0) ceres::Solve(solver_options(), &problem, &answer);
+    const BundleSummary summary = summarise(answer);
+    if (improved(summary)) store(graph);
+    release();
+    return summary;
+  }
+
+ private:
+  [[nodiscard]] static ceres::Problem::Options problem_options() {
+    ceres::Problem::Options o;
+    o.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    o.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    o.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    o.disable_all_safety_checks = true;
+    return o;
+  }
+
+  [[nodiscard]] ceres::Solver::Options solver_options() const {
+    ceres::Solver::Options o;
+    o.linear_solver_type = options.sparse ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
+    o.linear_solver_ordering = ordering_;
+    o.max_num_iterations = options.max_iterations;
+    o.function_tolerance = options.function_tolerance;
+    o.num_threads = options.num_threads;
+    o.logging_type = ceres::SILENT;
+    return o;
+  }
+
+  void load(const BundleGraph<double>& graph) {
+    poses_.resize(graph.views.size());
+    point_blocks_.resize(graph.points.size());
+    line_blocks_.resize(graph.lines.size());
+    for (std::size_t i = 0; i < poses_.size(); ++i)
+      store_pose(graph.views[i].cam_from_world, poses_[i].data());
+    for (std::size_t i = 0; i < point_blocks_.size(); ++i)
+      Eigen::Map<Vec3<double>>(point_blocks_[i].data()) = graph.points[i].position;
+    for (std::size_t i = 0; i < line_blocks_.size(); ++i)
+      store_line(graph.lines[i].line, line_blocks_[i].data());
+    point_loss_ = std::make_unique<ceres::HuberLoss>(options.losses.point);
+    line_loss_ = std::make_unique<ceres::HuberLoss>(options.losses.line);
+    rotation_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.rotation);
+    axis_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.axis);
+  }
+
+  // An observation that cannot be evaluated at the start would fail the whole problem: it is left out.
+  template <class Cost>
+  static bool evaluable(const Cost& cost, const double* pose, const double* landmark) {
+    double residual[2];
+    const double* const blocks[] = {pose, landmark};
+    return cost.Evaluate(blocks, residual, nullptr) && std::isfinite(residual[0]) &&
+           std::isfinite(residual[1]);
+  }
+
+  void add_points(const BundleGraph<double>& graph, ceres::Problem& problem) {
+    for (std::size_t i = 0; i < graph.points.size(); ++i) {
+      double* const block = point_blocks_[i].data();
+      bool used = false;
+      for (auto e = graph.points[i].first_edge; e < graph.points[i].last_edge; ++e) {
+        const PointEdge<double>& edge = graph.point_edges[static_cast<std::size_t>(e)];
+        const auto view = static_cast<std::size_t>(edge.view);
+        point_costs_.emplace_back(edge, graph.views[view].pinhole);
+        if (!evaluable(point_costs_.back(), poses_[view].data(), block)) continue;
+        problem.AddResidualBlock(&point_costs_.back(), point_loss_.get(), poses_[view].data(), block);
+        used = true;
+      }
+      if (used) ordering_->AddElementToGroup(block, 0);
+    }
+  }
+
+  void add_lines(const BundleGraph<double>& graph, ceres::Problem& problem) {
+    for (std::size_t i = 0; i < graph.lines.size(); ++i) {
+      double* const block = line_blocks_[i].data();
+      bool used = false;
+      for (auto e = graph.lines[i].first_edge; e < graph.lines[i].last_edge; ++e) {
+        const LineEdge<double>& edge = graph.line_edges[static_cast<std::size_t>(e)];
+        const auto view = static_cast<std::size_t>(edge.view);
+        line_costs_.emplace_back(edge, graph.views[view].pinhole);
+        if (!evaluable(line_costs_.back(), poses_[view].data(), block)) continue;
+        problem.AddResidualBlock(&line_costs_.back(), line_loss_.get(), poses_[view].data(), block);
+        used = true;
+      }
+      if (!used) continue;
+      problem.SetManifold(block, &line_manifold_);
+      ordering_->AddElementToGroup(block, 0);
+      if (!graph.lines[i].axis) continue;
+      axis_costs_.emplace_back(*graph.lines[i].axis, options.losses.axis_sigma);
+      problem.AddResidualBlock(&axis_costs_.back(), axis_loss_.get(), block);
+    }
+  }
+
+  void add_views(const BundleGraph<double>& graph, ceres::Problem& problem) {
+    for (std::size_t v = 0; v < graph.views.size(); ++v) {
+      const BundleView<double>& view = graph.views[v];
+      double* const block = poses_[v].data();
+      if (view.rotation && view.hold != Hold::kPose) {
+        rotation_costs_.emplace_back(*view.rotation);
+        problem.AddResidualBlock(&rotation_costs_.back(), rotation_loss_.get(), block);
+      }
+      if (graph.scale && graph.scale->free == static_cast<std::int32_t>(v)) {
+        const auto held = static_cast<std::size_t>(graph.scale->held);
+        scale_costs_.emplace_back(graph.views[held].cam_from_world.inverse().translation,
+                                  graph.scale->distance, options.losses.scale_sigma);
+        problem.AddResidualBlock(&scale_costs_.back(), nullptr, block);
+      }
+      if (!problem.HasParameterBlock(block)) continue;
+      ordering_->AddElementToGroup(block, 1);
+      if (view.hold == Hold::kPose)
+        problem.SetParameterBlockConstant(block);
+      else if (view.hold == Hold::kCentre)
+        problem.SetManifold(block, &turning_manifold_);
+      else
+        problem.SetManifold(block, &pose_manifold_);
+    }
+  }
+
+  [[nodiscard]] BundleSummary summarise(const ceres::Solver::Summary& answer) const {
+    BundleSummary out;
+    out.iterations = static_cast<int>(answer.iterations.size()) - 1;
+    out.initial_cost = answer.initial_cost;
+    out.final_cost = answer.final_cost;
+    if (answer.termination_type == ceres::CONVERGENCE)
+      out.status = Status::kOk;
+    else if (answer.termination_type == ceres::NO_CONVERGENCE)
+      out.status = Status::kNotConverged;
+    else if (answer.num_residual_blocks > 0)
+      out.status = Status::kDegenerate;
+    else
+      return out;
+    const auto finite = [](const auto& blocks) {
+      for (const auto& block : blocks)
+        for (const double x : block)
+          if (!std::isfinite(x)) return false;
+      return true;
+    };
+    if (!finite(poses_) || !finite(point_blocks_) || !finite(line_blocks_)) out.status = Status::kNotFinite;
+    return out;
+  }
+
+  void store(BundleGraph<double>& graph) const {
+    for (std::size_t i = 0; i < poses_.size(); ++i)
+      if (graph.views[i].hold != Hold::kPose) graph.views[i].cam_from_world = load_pose(poses_[i].data());
+    for (std::size_t i = 0; i < point_blocks_.size(); ++i)
+      graph.points[i].position = Eigen::Map<const Vec3<double>>(point_blocks_[i].data());
+    for (std::size_t i = 0; i < line_blocks_.size(); ++i)
+      graph.lines[i].line = load_line(line_blocks_[i].data());
+  }
+
+  void release() {
+    point_costs_.clear();
+    line_costs_.clear();
+    rotation_costs_.clear();
+    axis_costs_.clear();
+    scale_costs_.clear();
+    ordering_.reset();
+  }
+
+  std::vector<PoseBlock> poses_;
+  std::vector<PointBlock> point_blocks_;
+  std::vector<LineBlock> line_blocks_;
+  std::deque<PointCost> point_costs_;  // Ceres' cost functions cannot move
+  std::deque<LineCost> line_costs_;
+  std::deque<RotationTieCost> rotation_costs_;
+  std::deque<AxisTieCost> axis_costs_;
+  std::deque<ScaleTieCost> scale_costs_;
+  std::unique_ptr<ceres::LossFunction> point_loss_, line_loss_, rotation_loss_, axis_loss_;
+  PoseManifold pose_manifold_;
+  TurningPoseManifold turning_manifold_;
+  LineManifold line_manifold_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+};
+
+}  // namespace sslam

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What bundle adjustment works on: views, points and lines, and the observations that tie them together.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sslam/geometry/camera.hpp"
+#include "sslam/geometry/line2.hpp"
+#include "sslam/geometry/line3.hpp"
+#include "sslam/geometry/se3.hpp"
+
+namespace sslam {
+
+// What of a view stays as it is.
+enum class Hold : std::uint8_t {
+  kNothing,
+  kCentre,  // the camera turns about its centre
+  kPose,
+};
+
+// Rotation known from elsewhere: r = sqrt_information * Log(mean * R^-1).
+template <Scalar S>
+struct RotationTie {
+  SO3<S> mean;
+  Mat3<S> sqrt_information;  // of the left perturbation, 1/rad
+};
+
+template <Scalar S>
+struct BundleView {
+  SE3<S> cam_from_world;
+  Pinhole<S> pinhole;
+  Hold hold = Hold::kNothing;
+  std::optional<RotationTie<S>> rotation;
+};
+
+template <Scalar S>
+struct PointEdge {
+  Vec2<S> pixel;
+  S inverse_sigma = 1;    // of each coordinate, 1/pixels
+  std::int32_t view = 0;  // index into BundleGraph::views
+};
+
+template <Scalar S>
+struct LineEdge {
+  Segment2<S> segment;
+  S inverse_sigma = 1;  // of an endpoint's distance from the line, 1/pixels
+  std::int32_t view = 0;
+};
+
+// Edges [first_edge, last_edge) of BundleGraph::point_edges are its own.
+template <Scalar S>
+struct BundlePoint {
+  Vec3<S> position;  // world
+  std::int32_t first_edge = 0, last_edge = 0;
+};
+
+template <Scalar S>
+struct BundleLine {
+  Line3<S> line;  // world
+  std::int32_t first_edge = 0, last_edge = 0;
+  std::optional<Vec3<S>> axis;  // unit, world: the direction, up to its sign, that structure gives the line
+};
+
+// Holds the distance between a held and a free view: the one degree of freedom that observations leave open.
+template <Scalar S>
+struct ScaleTie {
+  std::int32_t held = 0, free = 0;  // views
+  S distance = 1;
+};
+
+template <Scalar S>
+struct BundleGraph {
+  std::vector<BundleView<S>> views;
+  std::vector<BundlePoint<S>> points;
+  std::vector<BundleLine<S>> lines;
+  std::vector<PointEdge<S>> point_edges;
+  std::vector<LineEdge<S>> line_edges;
+  std::optional<ScaleTie<S>> scale;
+
+  void clear() noexcept {
+    views.clear();
+    points.clear();
+    lines.clear();
+    point_edges.clear();
+    line_edges.clear();
+    scale.reset();
+  }
+};
+
+// How far an observation may be off, in its own standard deviations, before it counts less.
+template <Scalar S>
+struct BundleLosses {
+  S point = S(2.4477);             // Huber; sqrt of the 95 % quantile of chi-square with 2 degrees of freedom
+  S line = S(2.4477);              // Huber, both endpoints together
+  S rotation = 2;                  // Cauchy: a wrong Manhattan frame lets go
+  S axis = 2;                      // Cauchy: a wrong assignment lets go
+  S axis_sigma = radians(S(0.5));  // squareness of real walls and edges
+  S scale_sigma = S(1e-3);         // of the held distance, as a part of it; it competes with nothing
+};
+
+}  // namespace sslam
