@@ -4,6 +4,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "cli/image_file.hpp"
+
 namespace sslam::cli {
 
 FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
@@ -71,12 +73,14 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   input.index = entry.index;
   input.stamp = entry.stamp;
   input.name = entry.image.stem().string();
-  input.image = decode(entry);
+  std::string why;
+  input.image = decode(entry, why);
   if (!input.image.empty()) read_depth(entry, input, out);
   out.report = frontend_.process(input, out.frame);
   out.usable = out.report.image == ImageStatus::kOk;
   if (!out.usable) {
-    out.warning = entry.image.string() + ": " + name(out.report.image) + "; frame skipped";
+    if (why.empty()) why = entry.image.string() + ": " + name(out.report.image);
+    out.warning = why + "; frame skipped";
     return;
   }
   if (!settings_.use_points) out.frame.points.clear();
@@ -85,8 +89,8 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
     out.warning = entry.image.string() + ": " + name(out.report.normals) + "; lines alone for this frame";
 }
 
-cv::Mat FrameStream::decode(const io::FrameEntry& entry) {
-  if (dataset_.layout != io::Layout::kVideo) return cv::imread(entry.image.string(), cv::IMREAD_COLOR);
+cv::Mat FrameStream::decode(const io::FrameEntry& entry, std::string& why) {
+  if (dataset_.layout != io::Layout::kVideo) return load_image(entry.image, cv::IMREAD_COLOR, why);
   cv::Mat image;
   while (next_video_frame_ < entry.index && video_.grab()) ++next_video_frame_;
   if (next_video_frame_ == entry.index && video_.read(image)) ++next_video_frame_;
@@ -96,8 +100,9 @@ cv::Mat FrameStream::decode(const io::FrameEntry& entry) {
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {
   if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(settings_.normals.source)) return;
   input.depth_factor = settings_.depth_factor;
-  input.depth = cv::imread(entry.depth.string(), cv::IMREAD_UNCHANGED);
-  if (input.depth.empty()) out.warning = entry.depth.string() + ": cannot be read; lines alone for this frame";
+  std::string why;
+  input.depth = load_depth(entry.depth, dataset_.layout, why);
+  if (input.depth.empty()) out.warning = why + "; lines alone for this frame";
 }
 
 }  // namespace sslam::cli

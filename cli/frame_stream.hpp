@@ -49,7 +49,7 @@ class FrameStream {
  private:
   void produce();
   void fill(const io::FrameEntry& entry, ExtractedFrame& out);
-  [[nodiscard]] cv::Mat decode(const io::FrameEntry& entry);
+  [[nodiscard]] cv::Mat decode(const io::FrameEntry& entry, std::string& why);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
 
   const io::Dataset& dataset_;

@@ -34,6 +34,7 @@ int run_main(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   add_eval_command(app);
+  add_synth_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
   try {
     app.parse(argc, argv);

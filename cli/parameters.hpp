@@ -15,14 +15,14 @@ enum class Unit { kNumber, kPixels, kDegrees };  // kDegrees: radians inside, de
 // none, so what is visited depends on the preset.
 template <class Pipeline, class Visit>
 void visit_parameters(Pipeline& p, Visit visit) {
-  if constexpr (requires { p.rotation.options; }) {
+  if constexpr (requires { p.rotation.search; }) {
     visit("rotation.squareness", p.rotation.squareness, Unit::kDegrees, "how far walls and edges stand from right angles");
     visit("rotation.max_sigma", p.rotation.max_sigma, Unit::kDegrees, "largest standard deviation of a rotation that is trusted");
     visit("rotation.agreement", p.rotation.agreement, Unit::kDegrees, "between sightings of a Manhattan frame found late");
     visit("rotation.confirmations", p.rotation.confirmations, Unit::kNumber, "sightings in a row that make one believed");
-    visit("rotation.min_normal_share", p.rotation.options.min_normal_share, Unit::kNumber, "share of the normals that shows an axis");
-    visit("rotation.widest_kernel", p.rotation.options.widest_kernel, Unit::kDegrees, "first kernel width of the mean-shift");
-    visit("rotation.narrowest_kernel", p.rotation.options.narrowest_kernel, Unit::kDegrees, "last kernel width");
+    visit("rotation.min_normal_share", p.rotation.search.rotation.min_normal_share, Unit::kNumber, "share of the normals that shows an axis");
+    visit("rotation.widest_kernel", p.rotation.search.rotation.widest_kernel, Unit::kDegrees, "first kernel width of the mean-shift");
+    visit("rotation.narrowest_kernel", p.rotation.search.rotation.narrowest_kernel, Unit::kDegrees, "last kernel width");
   }
   if constexpr (requires { p.initialisation.min_points; }) {
     visit("initialisation.min_points", p.initialisation.min_points, Unit::kNumber, "landmarks of the first map");

@@ -2,6 +2,7 @@
 // `sslam synth DIR`: renders a house that is known to the last edge.
 #include "cli/synth.hpp"
 
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <unistd.h>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -25,7 +25,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // Rounded to what the lists print, so that every file tells the same time.
 double stamp_of(const SynthSettings& settings, std::size_t frame) {
@@ -34,7 +36,8 @@ double stamp_of(const SynthSettings& settings, std::size_t frame) {
 
 void show_progress(std::size_t done, std::size_t total, Clock::time_point start) {
   if (isatty(fileno(stderr)) == 0) return;
-  std::fprintf(stderr, "\rsynth %zu/%zu  %.0f frames/s ", done, total, static_cast<double>(done) / seconds_since(start));
+  std::fprintf(stderr, "\rsynth %zu/%zu  %.0f frames/s ", done, total,
+               static_cast<double>(done) / seconds_since(start));
 }
 
 // Renders and writes the frames on all threads; returns how many from the first on are complete.
@@ -65,7 +68,8 @@ std::size_t render_frames(const SynthSettings& settings, const synth::House& hou
 double length_of(const io::Trajectory& trajectory) {
   double length = 0.0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    length += (trajectory[i].world_from_cam.translation - trajectory[i - 1].world_from_cam.translation).norm();
+    length +=
+        (trajectory[i].world_from_cam.translation - trajectory[i - 1].world_from_cam.translation).norm();
   }
   return length;
 }
@@ -73,13 +77,15 @@ double length_of(const io::Trajectory& trajectory) {
 bool parse_size(const std::string& text, int& width, int& height) {
   int end = 0;
   return std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end) == 2 &&
-         end == static_cast<int>(text.size()) && width >= 32 && height >= 32 && width <= 8192 && height <= 8192;
+         end == static_cast<int>(text.size()) && width >= 32 && height >= 32 && width <= 8192 &&
+         height <= 8192;
 }
 
 void run_synth(const SynthSettings& settings) {
   const SynthReport report = synthesise(settings);
-  std::printf("%s: %d frames, %.1f m, house built in %.1f s, %.1f frames/s\n", settings.folder.c_str(), report.frames,
-              report.path_metres, report.build_seconds, report.frames / std::max(report.render_seconds, 1e-6));
+  std::printf("%s: %d frames, %.1f m, house built in %.1f s, %.1f frames/s\n", settings.folder.c_str(),
+              report.frames, report.path_metres, report.build_seconds,
+              report.frames / std::max(report.render_seconds, 1e-6));
   if (report.interrupted) throw Stop{ExitCode::kInterrupted};
 }
 
@@ -87,29 +93,39 @@ void add_scene_options(CLI::App& synth, const std::shared_ptr<SynthSettings>& s)
   synth.add_option("--seed", s->house.seed, "of layout, materials, light, path and noise; default 1");
   synth.add_option("--texture", s->house.richness, "rich, mixed or poor (plain paint alone); default rich")
       ->transform(CLI::CheckedTransformer(kRichnessNames).description(""));
-  synth.add_option("--world", s->house.world,
-                   "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
-                   "between walls); of a single room; default manhattan")
+  synth
+      .add_option(
+          "--world", s->house.world,
+          "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
+          "between walls); of a single room; default manhattan")
       ->transform(CLI::CheckedTransformer(kWorldNames).description(""));
-  synth.add_option("--rooms", s->house.rooms, "1, or 3 along a corridor; default 1")->check(CLI::IsMember({1, 3}));
-  synth.add_option("--path", s->house.path,
-                   "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
-                   "always toured; default loop")
+  synth.add_option("--rooms", s->house.rooms, "1, or 3 along a corridor; default 1")
+      ->check(CLI::IsMember({1, 3}));
+  synth
+      .add_option(
+          "--path", s->house.path,
+          "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
+          "always toured; default loop")
       ->transform(CLI::CheckedTransformer(kPathNames).description(""));
-  synth.add_option("--speed", s->house.motion.speed, "metres per second; default 0.5")->check(CLI::Range(0.01, 5.0));
-  synth.add_option("--tremor", s->house.motion.tremor, "of the hand; 0: none, default 1")->check(CLI::Range(0.0, 10.0));
+  synth.add_option("--speed", s->house.motion.speed, "metres per second; default 0.5")
+      ->check(CLI::Range(0.01, 5.0));
+  synth.add_option("--tremor", s->house.motion.tremor, "of the hand; 0: none, default 1")
+      ->check(CLI::Range(0.0, 10.0));
 }
 
 void add_camera_options(CLI::App& synth, const std::shared_ptr<SynthSettings>& s) {
-  synth.add_option("--frames", s->frames, "how many; default one lap of the path")->check(CLI::Range(1, 1000000));
+  synth.add_option("--frames", s->frames, "how many; default one lap of the path")
+      ->check(CLI::Range(1, 1000000));
   synth.add_option("--fps", s->rate, "frames per second; default 30")->check(CLI::Range(0.1, 1000.0));
-  synth.add_option_function<std::string>(
-           "--size", [s](const std::string& text) { (void)parse_size(text, s->width, s->height); },
-           "WIDTHxHEIGHT in pixels; default 640x480")
+  synth
+      .add_option_function<std::string>(
+          "--size", [s](const std::string& text) { (void)parse_size(text, s->width, s->height); },
+          "WIDTHxHEIGHT in pixels; default 640x480")
       ->check([](const std::string& text) {
         int width = 0, height = 0;
-        return parse_size(text, width, height) ? std::string()
-                                               : "'" + text + "' is not a size such as 640x480 (32 to 8192 pixels)";
+        return parse_size(text, width, height)
+                   ? std::string()
+                   : "'" + text + "' is not a size such as 640x480 (32 to 8192 pixels)";
       });
   synth.add_option("--focal", s->focal, "focal length in pixels; default three quarters of the width")
       ->check(CLI::Range(10.0, 1e5));
@@ -119,7 +135,9 @@ void add_camera_options(CLI::App& synth, const std::shared_ptr<SynthSettings>& s
       ->check(CLI::Range(0.0, 1.0));
   synth.add_option("--blur", s->blur, "share of the frame time that the shutter is open; default 0")
       ->check(CLI::Range(0.0, 1.0));
-  synth.add_option("--exposure", s->sensor.exposure_swing, "largest change of brightness, as a share; default 0")
+  synth
+      .add_option("--exposure", s->sensor.exposure_swing,
+                  "largest change of brightness, as a share; default 0")
       ->check(CLI::Range(0.0, 0.9));
 }
 
@@ -136,9 +154,11 @@ SynthReport synthesise(const SynthSettings& asked) {
   report.build_seconds = seconds_since(start);
   const int lap = std::max(1, static_cast<int>(std::lround(house.path.lap_seconds() * settings.rate)));
   const std::size_t frames = static_cast<std::size_t>(settings.frames > 0 ? settings.frames : lap);
-  const Pinhole<double> pinhole{settings.focal, settings.focal, 0.5 * (settings.width - 1), 0.5 * (settings.height - 1)};
+  const Pinhole<double> pinhole{settings.focal, settings.focal, 0.5 * (settings.width - 1),
+                                0.5 * (settings.height - 1)};
   const Clock::time_point rendering = Clock::now();
-  const std::size_t complete = render_frames(settings, house, {pinhole, settings.width, settings.height, {}}, frames);
+  const std::size_t complete =
+      render_frames(settings, house, {pinhole, settings.width, settings.height, {}}, frames);
   io::Trajectory truth;
   for (std::size_t i = 0; i < complete; ++i) {
     const double stamp = stamp_of(settings, i);
@@ -153,15 +173,18 @@ SynthReport synthesise(const SynthSettings& asked) {
 }
 
 void add_synth_command(CLI::App& app) {
-  CLI::App* synth = app.add_subcommand("synth", "Render a synthetic house with ground truth, TUM RGB-D layout");
+  CLI::App* synth =
+      app.add_subcommand("synth", "Render a synthetic house with ground truth, TUM RGB-D layout");
   auto settings = std::make_shared<SynthSettings>();
   synth->add_option("DIR", settings->folder, "where the data set goes; made if it is not there")->required();
   add_scene_options(*synth, settings);
   add_camera_options(*synth, settings);
   synth->add_option("--image-format", settings->image_format, "jpg (quality 95) or png; default jpg")
       ->check(CLI::IsMember({"jpg", "png"}));
-  synth->add_flag_callback("--no-depth", [settings] { settings->depth = false; }, "leave the depth images out");
-  synth->add_flag_callback("--no-normals", [settings] { settings->normals = false; }, "leave the normal images out");
+  synth->add_flag_callback(
+      "--no-depth", [settings] { settings->depth = false; }, "leave the depth images out");
+  synth->add_flag_callback(
+      "--no-normals", [settings] { settings->normals = false; }, "leave the normal images out");
   synth->add_option("--threads", settings->threads, "default one for each processor; the result is the same")
       ->check(CLI::Range(1, 1024));
   synth->add_flag("--quiet", settings->quiet, "no progress");

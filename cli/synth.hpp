@@ -14,14 +14,14 @@ struct SynthSettings {
   std::string folder;
   synth::HouseOptions house;
   synth::SensorOptions sensor;
-  int frames = 0;              // 0: one lap of the path
-  double rate = 30.0;          // frames per second
+  int frames = 0;      // 0: one lap of the path
+  double rate = 30.0;  // frames per second
   int width = 640, height = 480;
-  double focal = 0.0;          // pixels; 0: three quarters of the width, a view of 67 degrees
-  double blur = 0.0;           // share of the frame time that the shutter is open
+  double focal = 0.0;  // pixels; 0: three quarters of the width, a view of 67 degrees
+  double blur = 0.0;   // share of the frame time that the shutter is open
   std::string image_format = "jpg";
   bool depth = true, normals = true;
-  int threads = 0;             // 0: one for each processor
+  int threads = 0;  // 0: one for each processor
   bool quiet = false;
 };
 

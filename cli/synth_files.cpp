@@ -44,17 +44,20 @@ void write_text(const fs::path& path, const std::string& header, std::size_t row
 
 void write_camera(const SynthSettings& settings, const Pinhole<double>& pinhole) {
   const std::string text = cv::format(
-      "%%YAML:1.0\n---\nCamera.type: \"PinHole\"\nCamera.fx: %.9g\nCamera.fy: %.9g\nCamera.cx: %.9g\nCamera.cy: %.9g\n"
+      "%%YAML:1.0\n---\nCamera.type: \"PinHole\"\nCamera.fx: %.9g\nCamera.fy: %.9g\nCamera.cx: "
+      "%.9g\nCamera.cy: %.9g\n"
       "Camera.k1: 0.0\nCamera.k2: 0.0\nCamera.p1: 0.0\nCamera.p2: 0.0\n"
       "Camera.width: %d\nCamera.height: %d\nCamera.fps: %.9g\nCamera.RGB: 1\nDepthMapFactor: %.1f\n",
-      pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, settings.width, settings.height, settings.rate, kDepthFactor);
+      pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, settings.width, settings.height, settings.rate,
+      kDepthFactor);
   write_text(fs::path(settings.folder) / "camera.yaml", text, 0, [](std::size_t) { return ""; });
 }
 
 void write_manifest(const SynthSettings& s, std::size_t frames) {
   std::string text =
       "# Made by `sslam synth`. Depth: 16 bits, 5000 a metre, 0 where nothing or beyond 13.1 m.\n"
-      "# Normals: 8 bits, (x, y, z) = 2 v / 255 - 1 for red, green, blue; camera frame (x right, y down, z forward),\n"
+      "# Normals: 8 bits, (x, y, z) = 2 v / 255 - 1 for red, green, blue; camera frame (x right, y down, z "
+      "forward),\n"
       "# towards the camera; (0, 0, 0) where nothing is seen. Ground truth: world with z up, metres.\n";
   text += cv::format("frames = %zu\nseed = %llu\n", frames, static_cast<unsigned long long>(s.house.seed));
   text += "texture = \"" + name_of(kRichnessNames, s.house.richness) + "\"\n";
@@ -66,7 +69,8 @@ void write_manifest(const SynthSettings& s, std::size_t frames) {
   text += cv::format("noise = %g\nvignetting = %g\nblur = %g\nexposure = %g\n", s.sensor.noise,
                      s.sensor.vignetting, s.blur, s.sensor.exposure_swing);
   text += "image-format = \"" + s.image_format + "\"\n";
-  text += cv::format("no-depth = %s\nno-normals = %s\n", s.depth ? "false" : "true", s.normals ? "false" : "true");
+  text += cv::format("no-depth = %s\nno-normals = %s\n", s.depth ? "false" : "true",
+                     s.normals ? "false" : "true");
   write_text(fs::path(s.folder) / "synth.toml", text, 0, [](std::size_t) { return ""; });
 }
 
@@ -76,10 +80,12 @@ void prepare_synth_folder(const SynthSettings& settings) {
   const fs::path folder = settings.folder;
   std::error_code ignored;
   if (fs::exists(folder / "rgb.txt", ignored) && !fs::exists(folder / "synth.toml", ignored)) {
-    throw io::Error(settings.folder + ": holds a data set that sslam synth did not make; choose another folder");
+    throw io::Error(settings.folder +
+                    ": holds a data set that sslam synth did not make; choose another folder");
   }
   io::prepare_output_folder(folder);
-  for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt"}) fs::remove(folder / list, ignored);
+  for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt"})
+    fs::remove(folder / list, ignored);
   io::prepare_output_folder(folder / "rgb");
   if (settings.depth) io::prepare_output_folder(folder / "depth");
   if (settings.normals) io::prepare_output_folder(folder / "normals");
@@ -116,16 +122,19 @@ void FrameWriter::write_normals(const std::string& name, const synth::RenderedFr
   }
   cv::Mat image(frame.height, frame.width, CV_8UC3);
   Pixel* out = image.ptr<Pixel>();
-  for (const std::int32_t id : frame.surface) *out++ = id >= 0 ? encoded[static_cast<std::size_t>(id)] : Pixel{};
+  for (const std::int32_t id : frame.surface)
+    *out++ = id >= 0 ? encoded[static_cast<std::size_t>(id)] : Pixel{};
   write_image(fs::path(settings_.folder) / name, image, kFastPng);
 }
 
-void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole, const io::Trajectory& truth) {
+void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole,
+                       const io::Trajectory& truth) {
   const fs::path folder = settings.folder;
   const auto list = [&](const char* name, const std::string& extension) {
-    write_text(folder / (std::string(name) + ".txt"), "# timestamp filename\n", truth.size(), [&](std::size_t i) {
-      return cv::format("%.6f ", truth[i].stamp) + numbered(name, static_cast<int>(i), extension) + "\n";
-    });
+    write_text(
+        folder / (std::string(name) + ".txt"), "# timestamp filename\n", truth.size(), [&](std::size_t i) {
+          return cv::format("%.6f ", truth[i].stamp) + numbered(name, static_cast<int>(i), extension) + "\n";
+        });
   };
   write_camera(settings, pinhole);
   write_manifest(settings, truth.size());

@@ -33,7 +33,9 @@ class FrameWriter {
   const SynthSettings& settings_;
 };
 
-// rgb.txt, depth.txt, normals.txt, groundtruth.txt, camera.yaml and synth.toml for the first truth.size() frames.
-void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole, const io::Trajectory& truth);
+// rgb.txt, depth.txt, normals.txt, groundtruth.txt, camera.yaml and synth.toml for the first truth.size()
+// frames.
+void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole,
+                       const io::Trajectory& truth);
 
 }  // namespace sslam::cli

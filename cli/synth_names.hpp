@@ -16,9 +16,8 @@ inline const std::map<std::string, synth::World> kWorldNames{{"manhattan", synth
                                                              {"turned", synth::World::kTurned},
                                                              {"oblique", synth::World::kOblique},
                                                              {"free", synth::World::kFree}};
-inline const std::map<std::string, synth::PathKind> kPathNames{{"loop", synth::PathKind::kLoop},
-                                                               {"sweep", synth::PathKind::kSweep},
-                                                               {"pivot", synth::PathKind::kPivot}};
+inline const std::map<std::string, synth::PathKind> kPathNames{
+    {"loop", synth::PathKind::kLoop}, {"sweep", synth::PathKind::kSweep}, {"pivot", synth::PathKind::kPivot}};
 
 template <class Value>
 [[nodiscard]] std::string name_of(const std::map<std::string, Value>& names, Value value) {

@@ -12,9 +12,12 @@
 
 namespace sslam {
 
+template <class X>
+using ScalarOf = typename X::ScalarType;
+
 // A state that is moved by tangent vectors of kDof entries.
 template <class X>
-concept Manifold = requires(const X x, const Vec<typename X::ScalarType, X::kDof>& delta) {
+concept Manifold = requires(const X x, const Vec<ScalarOf<X>, X::kDof>& delta) {
   { x.retract(delta) } -> std::convertible_to<X>;
 };
 
@@ -24,6 +27,7 @@ template <Scalar S, int D>
 struct NormalEquations {
   Mat<S, D, D> H = Mat<S, D, D>::Zero();
   Vec<S, D> g = Vec<S, D>::Zero();
+  int count = 0;  // rows added
 
   // One row: residual r with derivative j and weight w >= 0.
   void add(const Mat<S, 1, D>& j, S r, S w) noexcept {
@@ -32,6 +36,7 @@ struct NormalEquations {
       for (int b = 0; b <= a; ++b) H(a, b) += wj * j[b];
       g[a] += wj * r;
     }
+    ++count;
   }
   void complete() noexcept {
     for (int a = 0; a < D; ++a)
@@ -39,19 +44,18 @@ struct NormalEquations {
   }
 };
 
-// What one evaluation says besides its normal equations.
+// The answer of a problem in which the set of valid observations depends on the state.
 template <Scalar S>
 struct Evaluated {
-  S cost = 0;     // robust, halves left out: sum of rho
+  S cost = 0;     // sum of rho, halves left out
   int count = 0;  // observations that took part; a step that changes it compares unlike things and is refused
 };
 
-template <Scalar S>
 struct LmOptions {
   int max_iterations = 10;
-  S initial_damping = S(1e-4);  // relative to the diagonal of H
-  S min_step = S(1e-7);         // tangent norm below which the state stands still
-  S min_decrease = S(1e-6);     // relative decrease of the cost that ends the search
+  double initial_damping = 1e-4;  // relative to the diagonal of H
+  double min_step = 1e-7;         // tangent norm below which the state stands still
+  double min_decrease = 1e-6;     // relative decrease of the cost that ends the search
 };
 
 template <Scalar S, int D>
@@ -63,14 +67,28 @@ struct LmSummary {
   Mat<S, D, D> information = Mat<S, D, D>::Zero();  // J^T W J at the answer
 };
 
-// problem(x, equations): evaluates at x, adding to *equations unless it is null, and returns Evaluated<S>. The state
-// changes only when the cost goes down. kDegenerate: H cannot be factored at any damping; kNotFinite: at the start.
-template <Manifold X, class Problem, class S = typename X::ScalarType>
-[[nodiscard]] LmSummary<S, X::kDof> minimize(const Problem& problem, X& x, const LmOptions<S>& options = {}) noexcept {
+namespace detail {
+
+// A problem that answers its cost alone has the same observations everywhere.
+template <Scalar S>
+[[nodiscard]] Evaluated<S> counted(S cost, int count) noexcept {
+  return {cost, count};
+}
+template <Scalar S>
+[[nodiscard]] Evaluated<S> counted(const Evaluated<S>& evaluated, int) noexcept {
+  return evaluated;
+}
+
+}  // namespace detail
+
+// problem(x, equations): evaluates at x, adding to *equations unless it is null, and returns the cost
+// or Evaluated<S>. The state changes only when the cost goes down. kDegenerate: H cannot be factored at any damping; kNotFinite: at the start.
+template <Manifold X, class Problem, class S = ScalarOf<X>>
+[[nodiscard]] LmSummary<S, X::kDof> minimize(const Problem& problem, X& x, const LmOptions& options = {}) noexcept {
   constexpr int D = X::kDof;
   LmSummary<S, D> summary;
   NormalEquations<S, D> equations;
-  Evaluated<S> current = problem(x, &equations);
+  Evaluated<S> current = detail::counted<S>(problem(x, &equations), equations.count);
   equations.complete();
   summary.initial_cost = summary.final_cost = current.cost;
   summary.count = current.count;
@@ -82,7 +100,7 @@ template <Manifold X, class Problem, class S = typename X::ScalarType>
   }
   summary.status = Status::kNotConverged;
   constexpr S kMaxDamping = S(1e6);
-  S damping = options.initial_damping;
+  S damping = static_cast<S>(options.initial_damping);
   bool factored = false;
   while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
     ++summary.iterations;
@@ -96,12 +114,13 @@ template <Manifold X, class Problem, class S = typename X::ScalarType>
       continue;
     }
     factored = true;
-    if (step.norm() < options.min_step) {
+    if (step.norm() < static_cast<S>(options.min_step)) {
       summary.status = Status::kOk;
       break;
     }
     const X trial = x.retract(step);
-    const Evaluated<S> tried = problem(trial, static_cast<NormalEquations<S, D>*>(nullptr));
+    const Evaluated<S> tried =
+        detail::counted<S>(problem(trial, static_cast<NormalEquations<S, D>*>(nullptr)), current.count);
     if (!(tried.cost < current.cost) || tried.count != current.count) {
       damping *= 10;
       continue;
@@ -110,10 +129,10 @@ template <Manifold X, class Problem, class S = typename X::ScalarType>
     x = trial;
     damping = std::max(damping / 10, S(1e-9));
     equations = {};
-    current = problem(x, &equations);
+    current = detail::counted<S>(problem(x, &equations), equations.count);
     equations.complete();
     summary.information = equations.H;
-    if (decrease < options.min_decrease) {
+    if (decrease < static_cast<S>(options.min_decrease)) {
       summary.status = Status::kOk;
       break;
     }

@@ -40,7 +40,7 @@ struct PoseRefinementOptions {
   S gate = S(5.991);        // chi-square of two degrees of freedom at 95 %: beyond it a match is an outlier
   S prior_huber = S(2);     // the same for the rotation prior, so that a wrong one lets go
   int min_observations = 3; // points plus lines
-  LmOptions<S> solver{};
+  LmOptions solver;
 };
 
 template <Scalar S, int D>

@@ -55,7 +55,7 @@ concept KeyframeStage = requires(const T stage, const Map<S>& map, const Tracked
 template <class T, class S>
 concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
   { stage.insert(map, frame, S{}) } -> std::same_as<KeyframeId>;
-  stage.begin(map, frame);
+  stage.begin(map, frame, S{});
   stage.reset();
 };
 

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
+#include "sslam/solver/find_relative_pose.hpp"
 #include "sslam/solver/relative_pose.hpp"
 #include "sslam/solver/translation.hpp"
 #include "sslam/solver/triangulate_point.hpp"
@@ -22,11 +25,12 @@ class DecoupledInitialisation {
   int min_points = 20;                 // landmarks that a first map must have
   S min_parallax = radians(S(1));      // of a landmark that counts
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
-  S mean_depth = 1;                    // median depth of the first map: sets the monocular scale
+  S scene_depth = 1;                    // median depth of the first map: sets the monocular scale
+  RelativePoseOptions<S> refinement;
   std::uint64_t seed = 1;
   PointMatchOptions<S> match{.max_distance = 60, .max_ratio = S(0.9)};
 
-  // Tries to make a first map from the reference frame and this one. On success (kNone) the map holds both as
+  // Tries to make a first map from the reference frame and this one. On success (kFine) the map holds both as
   // keyframes with their points, and the frame has its pose and matches.
   [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map) {
     if (frame.frame.points.size() < static_cast<std::size_t>(min_points)) return Reason::kTooFewFeatures;
@@ -36,7 +40,7 @@ class DecoupledInitialisation {
     SO3<S> R_10;
     Vec3<S> t_10;
     const Reason reason = relative_pose(frame, R_10, t_10);
-    if (reason != Reason::kNone) return reason;
+    if (reason != Reason::kFine) return reason;
     return build(frame, R_10, t_10, map);
   }
 
@@ -82,8 +86,93 @@ class DecoupledInitialisation {
       last_pixels_[Map<S>::index(p.first)] = frame.frame.points[Map<S>::index(p.second)].pixel;
   }
 
-  [[nodiscard]] Reason relative_pose(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10);
-  [[nodiscard]] Reason build(TrackedFrame<S>& frame, const SO3<S>& R_10, const Vec3<S>& t_10, Map<S>& map);
+  [[nodiscard]] Reason relative_pose(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10) {
+    bearings_.clear();
+    const Pinhole<S>& k = frame.frame.pinhole;
+    for (const IndexPair& p : pairs_) {
+      const PointFeature<S>& a = reference_.frame.points[Map<S>::index(p.first)];
+      const PointFeature<S>& b = frame.frame.points[Map<S>::index(p.second)];
+      bearings_.push_back({k.unproject(a.pixel), k.unproject(b.pixel), std::max(a.sigma, b.sigma) / k.fx});
+    }
+    inliers_.assign(bearings_.size(), 0);
+    RelativePoseSummary<S> summary;
+    if (reference_.manhattan && frame.manhattan) {
+      summary = decoupled(frame, R_10, t_10);
+    } else {
+      FindRelativePoseOptions<S> options;
+      options.refinement = refinement;
+      summary = find_relative_pose<S>(bearings_, options, seed, R_10, t_10, inliers_);
+    }
+    if (summary.status == Status::kLowParallax) return Reason::kLowParallax;
+    if (!usable(summary.status)) return Reason::kNoConsensus;
+    const S sigma = std::sqrt(summary.translation_covariance.trace());
+    return sigma < max_direction_sigma ? Reason::kFine : Reason::kLowParallax;
+  }
+
+  // Rotation from the two Manhattan rotations, translation as a null vector, and a refinement of both in which the
+  // rotation is held by its covariance.
+  [[nodiscard]] RelativePoseSummary<S> decoupled(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10) {
+    R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
+    const Mat3<S> turn = R_10.matrix();
+    const Mat3<S> covariance =
+        frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose();
+    TranslationOptions<S> options;
+    options.rotation_sigma = std::sqrt(covariance.trace() / 3);
+    const auto estimate = translation_from_rotation<S>(bearings_, R_10, options, seed);
+    if (!usable(estimate.status)) return {.status = estimate.status};
+    t_10 = estimate.t_10;
+    RelativePoseOptions<S> held = refinement;
+    held.start_sigma = options.rotation_sigma;
+    held.prior_R_10 = R_10;
+    held.prior_information = covariance.inverse();
+    return refine_relative_pose<S>(bearings_, R_10, t_10, held, inliers_);
+  }
+
+  // Triangulates the inliers; the two frames become the first keyframes.
+  [[nodiscard]] Reason build(TrackedFrame<S>& frame, const SO3<S>& R_10, const Vec3<S>& t_10, Map<S>& map) {
+    const SE3<S> frame_from_reference{R_10, t_10};
+    const Pinhole<S>& k = frame.frame.pinhole;
+    seeds_.clear();
+    depths_.clear();
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (!inliers_[i]) continue;
+      const BearingMatch<S>& match = bearings_[i];
+      const std::array views{PointView<S>{SE3<S>(), match.ray0.template head<2>(), match.sigma},
+                             PointView<S>{frame_from_reference, match.ray1.template head<2>(), match.sigma}};
+      PointTriangulationOptions<S> options;
+      options.min_parallax = min_parallax;
+      const auto answer = triangulate_point<S>(views, options);
+      if (!usable(answer.status)) continue;
+      seeds_.push_back({pairs_[i], answer.point});
+      depths_.push_back(answer.point.z());
+    }
+    if (static_cast<int>(seeds_.size()) < min_points) return Reason::kLowParallax;
+    const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
+    std::nth_element(depths_.begin(), middle, depths_.end());
+    const S scale = scene_depth / *middle;
+    // The reference sits at the world's origin, turned as its Manhattan rotation says.
+    reference_.cam_from_world.translation.setZero();
+    frame.cam_from_world = {R_10 * reference_.cam_from_world.rotation, scale * t_10};
+    reference_.forget_matches();
+    frame.forget_matches();
+    map.add_keyframe(reference_.to_keyframe());
+    map.add_keyframe(frame.to_keyframe());
+    const SE3<S> world_from_reference = reference_.cam_from_world.inverse();
+    for (const Seed& s : seeds_) {
+      const LandmarkId id = map.add_point(world_from_reference * Vec3<S>(scale * s.point), 1);
+      map.observe_point(id, 0, Map<S>::index(s.pair.first));
+      map.observe_point(id, 1, Map<S>::index(s.pair.second));
+    }
+    map.update_covisibility(0);
+    map.update_covisibility(1);
+    has_reference_ = false;
+    return Reason::kFine;
+  }
+
+  struct Seed {
+    IndexPair pair;
+    Vec3<S> point;  // in the reference camera, at unit baseline
+  };
 
   TrackedFrame<S> reference_;
   bool has_reference_ = false;
@@ -92,6 +181,8 @@ class DecoupledInitialisation {
   std::vector<IndexPair> pairs_;
   std::vector<BearingMatch<S>> bearings_;
   std::vector<std::uint8_t> inliers_;
+  std::vector<Seed> seeds_;
+  std::vector<S> depths_;
 };
 
 }  // namespace sslam

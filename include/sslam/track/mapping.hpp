@@ -43,6 +43,17 @@ class KeyframeMapping {
     return id;
   }
 
+  // Completes the map that initialisation has just made; the frame is its last keyframe.
+  void begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
+    const KeyframeId id = map.keyframes.back().id;
+    creation.create(map, id, median_depth);
+    map.update_covisibility(id);
+    optimiser.optimise(map, id);
+    if (!creation.options.use_points)
+      for (std::size_t i = 0; i < map.points.size(); ++i) map.erase_point(static_cast<LandmarkId>(i));
+    read_back(map, id, frame);
+  }
+
   void reset() { culling.reset(); }
 
   static void read_back(const Map<S>& map, KeyframeId id, TrackedFrame<S>& frame) {

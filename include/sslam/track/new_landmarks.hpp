@@ -13,6 +13,8 @@ namespace sslam {
 
 template <Scalar S>
 struct NewLandmarkOptions {
+  bool use_points = true;
+  bool use_lines = true;
   std::size_t max_neighbours = 8;          // connected keyframes to match with
   S min_baseline = S(0.015);               // between the two cameras over the median scene depth
   S nearest = S(0.2), farthest = S(15);    // depth of a new landmark over the median scene depth
@@ -38,8 +40,8 @@ class NewLandmarks {
       const Keyframe<S>& b = map.keyframes[map.index(neighbours[i].keyframe)];
       b_from_a_ = b.cam_from_world * a.cam_from_world.inverse();
       if (b_from_a_.translation.norm() < options.min_baseline * median_depth) continue;
-      added += create_points(map, id, neighbours[i].keyframe, median_depth);
-      added += create_lines(map, id, neighbours[i].keyframe, median_depth);
+      if (options.use_points) added += create_points(map, id, neighbours[i].keyframe, median_depth);
+      if (options.use_lines) added += create_lines(map, id, neighbours[i].keyframe, median_depth);
     }
     return added;
   }

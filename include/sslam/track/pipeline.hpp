@@ -3,6 +3,7 @@
 // `pipeline.rotation.options.cone = ...` and replacing one is a template argument.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "sslam/track/concepts.hpp"
@@ -17,6 +18,10 @@ template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisa
           MappingStage<S> Mapping, StageTimer Timer = NoTimer>
 class Pipeline {
  public:
+  Pipeline() = default;
+  Pipeline(const Pipeline&) = delete;  // the frames in hand point into it
+  Pipeline& operator=(const Pipeline&) = delete;
+
   Rotation rotation;
   Initialisation initialisation;
   Translation translation;
@@ -66,12 +71,11 @@ class Pipeline {
     timer.end(Stage::kRotation);
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
-    if (result.reason != Reason::kNone) return;
-    mapping.begin(map_, *current_);
+    if (result.reason != Reason::kFine) return;
+    mapping.begin(map_, *current_, scene_depth());
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : map_.keyframes)
       log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
-    log_.set_live(current_->cam_from_world);
     reference_ = map_.keyframes.back().id;
     frames_since_keyframe_ = 0;
     report(result, answer.trusted ? State::kManhattan : State::kFallback);
@@ -118,7 +122,7 @@ class Pipeline {
         timer.end(Stage::kRefinement);
         if (estimate.ok()) {
           result.state = State::kManhattan;
-          result.reason = Reason::kNone;
+          result.reason = Reason::kFine;
           return estimate;
         }
       }
@@ -176,14 +180,19 @@ class Pipeline {
 
   void consider_keyframe(TrackResult<S>& result, const PoseEstimate<S>& estimate) {
     ++frames_since_keyframe_;
-    scratch_.gather(map_, *current_);
-    const S depth = scratch_.median_depth(current_->cam_from_world);
+    const S depth = scene_depth();
     const int inliers = estimate.point_inliers + estimate.line_inliers;
     if (!keyframes.choose(map_, reference_, *current_, inliers, frames_since_keyframe_, depth)) return;
     reference_ = mapping.insert(map_, *current_, depth);
     frames_since_keyframe_ = 0;
     result.keyframe = true;
     timer.end(Stage::kMapping);
+  }
+
+  // Median depth of what the frame sees of the map.
+  S scene_depth() {
+    scratch_.gather(map_, *current_);
+    return scratch_.median_depth(current_->cam_from_world);
   }
 
   void report(TrackResult<S>& result, State state) {

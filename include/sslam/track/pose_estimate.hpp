@@ -16,11 +16,11 @@ namespace sslam {
 
 template <Scalar S>
 struct PoseEstimate {
-  Reason reason = Reason::kTooFewMatches;  // kNone: the pose may be used
+  Reason reason = Reason::kTooFewMatches;  // kFine: the pose may be used
   int point_inliers = 0;
   int line_inliers = 0;
 
-  [[nodiscard]] bool ok() const noexcept { return reason == Reason::kNone; }
+  [[nodiscard]] bool ok() const noexcept { return reason == Reason::kFine; }
 };
 
 template <Scalar S>
@@ -54,7 +54,7 @@ template <Scalar S, int D>
   };
   if (!(spread(D - 3) < acceptance.max_position_sigma * matches.median_depth(cam_from_world))) return estimate;
   if (D == 6 && !(spread(0) < acceptance.max_rotation_sigma)) return estimate;
-  estimate.reason = Reason::kNone;
+  estimate.reason = Reason::kFine;
   return estimate;
 }
 

@@ -69,7 +69,7 @@ struct NoRefinement {
     const auto seen = [](const std::vector<LandmarkId>& v) {
       return static_cast<int>(v.size()) - static_cast<int>(std::count(v.begin(), v.end(), kNone));
     };
-    return {Reason::kNone, seen(frame.point_landmarks), seen(frame.line_landmarks)};
+    return {Reason::kFine, seen(frame.point_landmarks), seen(frame.line_landmarks)};
   }
 };
 

@@ -16,7 +16,7 @@ enum class State : std::uint8_t {
 };
 
 enum class Reason : std::uint8_t {
-  kNone,                // all is well
+  kFine,                // nothing to say
   kTooFewFeatures,      // the image shows too little
   kTooFewMatches,       // too little of the reference frame, or of the map, is seen again
   kLowParallax,         // the camera has turned or stood still: no depth yet
@@ -39,7 +39,7 @@ enum class Reason : std::uint8_t {
 
 [[nodiscard]] constexpr const char* name(Reason reason) noexcept {
   switch (reason) {
-    case Reason::kNone: return "";
+    case Reason::kFine: return "";
     case Reason::kTooFewFeatures: return "too few features";
     case Reason::kTooFewMatches: return "too few matches";
     case Reason::kLowParallax: return "low parallax";
@@ -57,7 +57,7 @@ struct TrackResult {
   std::int64_t index = -1;  // position in the dataset
   double stamp = 0;         // seconds
   State state = State::kInitialising;
-  Reason reason = Reason::kNone;
+  Reason reason = Reason::kFine;
   SE3<S> cam_from_world;    // meaningful where has_pose()
   int point_inliers = 0;
   int line_inliers = 0;

@@ -21,7 +21,7 @@ struct RotationAnswer {
 template <Scalar S>
 class ManhattanRotation {
  public:
-  ManhattanOptions<S> options;
+  SearchOptions<S> search;  // of the first frame; its `rotation` options serve every later one
   std::uint64_t seed = 1;
   S squareness = radians(S(0.5));   // how far walls and edges stand from right angles: floor of every sigma
   S max_sigma = radians(S(1.5));    // largest standard deviation, about any axis, of a trusted rotation
@@ -37,12 +37,13 @@ class ManhattanRotation {
     frame.line_axes.assign(frame.frame.lines.size(), kNone);
     ManhattanEstimate<S> estimate;
     if (world_from_manhattan_) {
-      const SO3<S> prior = predicted_cam_from_world * *world_from_manhattan_;
-      estimate = track_manhattan<S>(normals, votes_, prior, options, frame.line_axes);
+      const ManhattanPrior<S> prior{predicted_cam_from_world * *world_from_manhattan_};
+      estimate = track_manhattan<S>(normals, votes_, prior, search.rotation, frame.line_axes);
     } else {
-      estimate = search(normals, predicted_cam_from_world, mapped, frame);
+      estimate = find(normals, predicted_cam_from_world, mapped, frame);
     }
-    if (!usable(estimate.status) || !world_from_manhattan_) return {};
+    const bool seen = usable(estimate.status) || estimate.status == Status::kDegenerate;
+    if (!seen || !world_from_manhattan_) return {};
     return answer(estimate, frame);
   }
 
@@ -55,17 +56,13 @@ class ManhattanRotation {
  private:
   void gather_votes(const Frame<S>& frame) {
     votes_.clear();
-    for (const LineFeature<S>& line : frame.lines) {
-      const S length = line.segment.length();
-      // Ends that are off by sigma across the segment turn it by about sqrt(2) sigma / length.
-      const S sigma = std::sqrt(S(2)) * line.sigma / std::max(length, S(1));
-      votes_.push_back({interpretation_plane(line.segment, frame.pinhole), sigma});
-    }
+    for (const LineFeature<S>& line : frame.lines)
+      votes_.push_back(line_vote(line.segment, frame.pinhole, line.sigma));
   }
 
-  ManhattanEstimate<S> search(const NormalView<float>& normals, const SO3<S>& predicted, bool mapped,
+  ManhattanEstimate<S> find(const NormalView<float>& normals, const SO3<S>& predicted, bool mapped,
                               TrackedFrame<S>& frame) {
-    ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, options, seed, frame.line_axes);
+    ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, search, seed, frame.line_axes);
     if (!usable(estimate.status) || estimate.axes_seen < 2) {
       candidate_.reset();
       return estimate;

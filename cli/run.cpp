@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam run DATASET`: tracks a sequence.
+#include "cli/run.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/camera_choice.hpp"
+#include "cli/commands.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/image_file.hpp"
+#include "cli/messages.hpp"
+#include "cli/presets.hpp"
+#include "cli/run_report.hpp"
+#include "sslam/io/open_dataset.hpp"
+
+namespace sslam::cli {
+namespace {
+
+const Preset& find_preset(const std::string& wanted) {
+  std::string known;
+  for (const Preset& preset : kPresets) {
+    if (preset.name == wanted) return preset;
+    known += (known.empty() ? "" : ", ") + std::string(preset.name);
+  }
+  throw io::Error("--preset " + wanted + ": not known; use one of " + known);
+}
+
+// "stage.parameter=value"
+ParameterValue parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto value = equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
+  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
+  return {text.substr(0, equals), *value};
+}
+
+io::Dataset open(const RunSettings& settings) {
+  io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
+  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
+  io::apply_slice(dataset, settings.slice);
+  print_warnings(dataset.warnings);
+  return dataset;
+}
+
+// A camera file may leave the image size out: then the first image says it.
+void complete_size(Camera<double>& camera, const io::Dataset& dataset) {
+  if (camera.width > 0 && camera.height > 0) return;
+  if (dataset.layout == io::Layout::kVideo) {
+    cv::VideoCapture video(dataset.root.string());
+    camera.width = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
+    camera.height = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
+    return;
+  }
+  std::string why;
+  const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
+  if (first.empty()) throw io::Error(why + "; the camera's size is not known without it");
+  camera.width = first.cols;
+  camera.height = first.rows;
+}
+
+void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
+  if (settings.normals != "depth") return;
+  const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
+                               [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
+  if (!any) throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
+  if (!(depth_factor > 0))
+    throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
+}
+
+}  // namespace
+
+void run(const RunSettings& settings) {
+  const Preset& preset = find_preset(settings.preset);
+  TrackSettings track;
+  track.seed = settings.seed;
+  for (const std::string& text : settings.set) track.overrides.push_back(parse_override(text));
+  const io::Dataset dataset = open(settings);
+  CameraChoice camera = choose_camera(settings.camera, dataset);
+  complete_size(camera.camera, dataset);
+  check_normals(settings, dataset, camera.depth_factor);
+  io::prepare_output_folder(settings.out);
+
+  StreamSettings stream_settings;
+  stream_settings.camera = camera.camera;
+  stream_settings.depth_factor = camera.depth_factor;
+  stream_settings.normals = choose_normals(settings.normals);
+  stream_settings.use_points = preset.use_points;
+  stream_settings.use_lines = preset.use_lines;
+  FrameStream stream(dataset, stream_settings);
+  Progress progress(stream.size(), settings.verbosity);
+  const RunOutcome outcome = preset.run(stream, track, progress);
+  print_warnings(outcome.warnings);
+  write_run({settings, dataset, camera.source, camera.camera.pinhole}, outcome);
+  if (outcome.interrupted) {
+    print_warning("interrupted; what had been computed was written");
+    throw Stop{ExitCode::kInterrupted};
+  }
+  if (outcome.trajectory.empty()) {
+    const char* const reason = outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
+    throw io::Error(settings.dataset + ": no frame was tracked; last reason: " + reason);
+  }
+}
+
+void add_run_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("run", "Track a sequence: trajectory, map, figures and pictures");
+  auto s = std::make_shared<RunSettings>();
+  command->add_option("dataset", s->dataset,
+                      "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
+      ->required();
+  command->add_option("--camera", s->camera, "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names());
+  command->add_option("--normals", s->normals, "Surface normals: none (lines alone), depth, or files:DIR")->capture_default_str();
+  std::string presets = "What the pipeline is made of:";
+  for (const Preset& preset : kPresets) presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
+  command->add_option("--preset", s->preset, presets)->capture_default_str();
+  command->add_option("--out", s->out, "Folder for the results")->capture_default_str();
+  command->add_option("--start", s->slice.start, "First frame")->capture_default_str()->check(CLI::NonNegativeNumber);
+  command->add_option("--end", s->slice.end, "Frame to stop before; negative: the last")->capture_default_str();
+  command->add_option("--stride", s->slice.stride, "Take every n-th frame")->capture_default_str()->check(CLI::PositiveNumber);
+  command->add_option("--set", s->set, "stage.parameter=value, as in metrics.json; angles in degrees; may be repeated");
+  command->add_option("--seed", s->seed, "Of everything random")->capture_default_str();
+  command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")->capture_default_str()->check(CLI::PositiveNumber);
+  command->add_flag_callback("--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
+  command->set_config("--config", "", "Options from a TOML file");
+  command->callback([s] { run(*s); });
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam run` as a function, so that `sslam demo` calls the same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/progress.hpp"
+#include "sslam/io/dataset.hpp"
+
+namespace sslam::cli {
+
+struct RunSettings {
+  std::string dataset;
+  std::string camera;              // file or name; empty: from the dataset
+  std::string normals = "none";
+  std::string preset = "structure";
+  std::string out = "out";
+  io::Slice slice;
+  std::vector<std::string> set;    // stage.parameter=value
+  std::uint64_t seed = 1;
+  double frame_rate = 30;          // frames a second, for images without stamps
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+// Tracks the dataset and writes everything into settings.out. Throws io::Error; Stop when interrupted.
+void run(const RunSettings& settings);
+
+}  // namespace sslam::cli

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run_report.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/eval_report.hpp"
+#include "cli/messages.hpp"
+#include "sslam/io/comparison_view.hpp"
+#include "sslam/io/csv_writer.hpp"
+#include "sslam/io/evaluation.hpp"
+#include "sslam/io/map_writer.hpp"
+#include "sslam/io/svg_plot.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void write_frames(const fs::path& path, const RunOutcome& outcome) {
+  std::vector<std::string> columns{"index", "stamp", "image", "state", "reason", "points", "lines", "normals",
+                                   "point_inliers", "line_inliers", "axes_seen", "keyframe", "points_ms", "lines_ms",
+                                   "normals_ms", "extraction_ms"};
+  for (int s = 0; s < kStageCount; ++s) columns.push_back(std::string(name(static_cast<Stage>(s))) + "_ms");
+  columns.insert(columns.end(), {"tracking_ms", "frame_ms"});
+  io::CsvWriter csv(path, columns);
+  const auto ms = [](double value) { return std::round(value * 1e3) / 1e3; };
+  for (const FrameRecord& f : outcome.frames) {
+    const auto& r = f.result;
+    csv.row(r.index, r.stamp, f.image, std::string(name(r.state)), std::string(name(r.reason)), f.points, f.lines,
+            f.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, ms(f.points_ms), ms(f.lines_ms),
+            ms(f.normals_ms), ms(f.extraction_ms), ms(f.stage_ms[0]), ms(f.stage_ms[1]), ms(f.stage_ms[2]),
+            ms(f.stage_ms[3]), ms(f.stage_ms[4]), ms(f.stage_ms[5]), ms(f.tracking_ms), ms(f.frame_ms()));
+  }
+  static_assert(kStageCount == 6, "one cell for each stage");
+  csv.commit();
+}
+
+void write_map_file(const fs::path& path, const RunOutcome& outcome) {
+  constexpr std::array<io::Colour, 4> kAxisColours{
+      {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none
+  std::vector<io::MapPoint> points;
+  for (const MapPoint& point : outcome.points) points.push_back({point.position});
+  std::vector<io::MapLine> lines;
+  for (const MapLine& line : outcome.lines)
+    lines.push_back({line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
+  io::write_map(path, points, lines);
+}
+
+// The p-quantile by nearest rank; 0 of nothing.
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+Json times_json(const RunOutcome& outcome) {
+  std::vector<double> frame, extraction, tracking;
+  for (const FrameRecord& f : outcome.frames) {
+    frame.push_back(f.frame_ms());
+    extraction.push_back(f.extraction_ms);
+    tracking.push_back(f.tracking_ms);
+  }
+  const auto quantiles = [](const std::vector<double>& v) {
+    return Json{{"median", quantile(v, 0.5)}, {"p95", quantile(v, 0.95)}, {"max", quantile(v, 1.0)}};
+  };
+  const double rate = outcome.wall_seconds > 0 ? static_cast<double>(outcome.frames.size()) / outcome.wall_seconds : 0;
+  return {{"frames_per_second", rate},
+          {"wall_seconds", outcome.wall_seconds},
+          {"frame_ms", quantiles(frame)},
+          {"extraction_ms", quantiles(extraction)},
+          {"tracking_ms", quantiles(tracking)}};
+}
+
+Json states_json(const RunOutcome& outcome) {
+  Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"lost", 0}};
+  for (const FrameRecord& f : outcome.frames) states[name(f.result.state)] = states[name(f.result.state)].get<int>() + 1;
+  return states;
+}
+
+Json settings_json(const RunContext& context, const RunOutcome& outcome) {
+  const RunSettings& s = context.settings;
+  Json parameters;
+  for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
+  return {{"dataset", s.dataset}, {"camera", context.camera_source},
+          {"pinhole", {context.pinhole.fx, context.pinhole.fy, context.pinhole.cx, context.pinhole.cy}},
+          {"normals", s.normals}, {"preset", s.preset}, {"start", s.slice.start}, {"end", s.slice.end},
+          {"stride", s.slice.stride}, {"seed", s.seed}, {"parameters", parameters}};
+}
+
+std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::Trajectory& trajectory) {
+  if (context.dataset.ground_truth.empty() || trajectory.size() < 3) return std::nullopt;
+  io::EvaluationOptions options;
+  options.seconds_per_stamp = context.dataset.seconds_per_stamp;
+  for (const io::FrameEntry& frame : context.dataset.frames) options.frame_stamps.push_back(frame.stamp);
+  try {
+    return io::evaluate(context.dataset.ground_truth, trajectory, options);
+  } catch (const io::Error& error) {
+    print_warning(std::string("no figures against ground truth: ") + error.what());
+    return std::nullopt;
+  }
+}
+
+void write_top_view_file(const fs::path& path, const RunContext& context, const RunOutcome& outcome,
+                         const std::optional<io::Evaluation>& evaluation) {
+  if (outcome.trajectory.empty()) return;
+  Sim3<double> truth_from_estimate;
+  if (evaluation) truth_from_estimate = evaluation->truth_from_estimate;
+  io::TopView view = io::comparison_view(context.dataset.ground_truth, outcome.trajectory, truth_from_estimate,
+                                         context.dataset.frames.front().stamp, context.dataset.frames.back().stamp,
+                                         context.settings.dataset);
+  if (!evaluation) view.unit = "map units";
+  for (const MapPoint& point : outcome.points) view.points.push_back(truth_from_estimate * point.position);
+  io::write_top_view(path, view);
+}
+
+void print_summary(const RunContext& context, const RunOutcome& outcome,
+                   const std::optional<io::Evaluation>& evaluation) {
+  const Json times = times_json(outcome);
+  const std::size_t total = context.dataset.frames.size();
+  std::printf("tracked          %zu of %zu frames (%.1f %%), %zu keyframes, %zu points, %zu lines\n",
+              outcome.trajectory.size(), total,
+              100.0 * static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total),
+              outcome.keyframes.size(), outcome.points.size(), outcome.lines.size());
+  std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
+              times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
+              times["frame_ms"]["p95"].get<double>());
+  if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
+  std::printf("written to       %s\n", context.settings.out.c_str());
+}
+
+}  // namespace
+
+void write_run(const RunContext& context, const RunOutcome& outcome) {
+  const fs::path out = context.settings.out;
+  io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
+  io::write_trajectory(out / "trajectory_live.txt", outcome.live);
+  io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
+  write_map_file(out / "map.ply", outcome);
+  write_frames(out / "frames.csv", outcome);
+  const auto evaluation = evaluate_run(context, outcome.trajectory);
+  const auto live = evaluate_run(context, outcome.live);
+  Json metrics = {{"frames", context.dataset.frames.size()},
+                  {"tracked", outcome.trajectory.size()},
+                  {"tracked_live", outcome.live.size()},
+                  {"share_tracked", static_cast<double>(outcome.trajectory.size()) /
+                                        static_cast<double>(context.dataset.frames.size())},
+                  {"interrupted", outcome.interrupted},
+                  {"keyframes", outcome.keyframes.size()},
+                  {"points", outcome.points.size()},
+                  {"lines", outcome.lines.size()},
+                  {"states", states_json(outcome)},
+                  {"times", times_json(outcome)}};
+  if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
+  if (live) metrics["trajectory_live"] = evaluation_json(*live);
+  metrics["warnings"] = outcome.warnings;
+  metrics["settings"] = settings_json(context, outcome);
+  write_json((out / "metrics.json").string(), metrics);
+  write_top_view_file(out / "topview.svg", context, outcome, evaluation);
+  print_summary(context, outcome, evaluation);
+}
+
+}  // namespace sslam::cli

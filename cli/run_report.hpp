@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of a run: trajectories, map, per-frame table, metrics, top view.
+#pragma once
+
+#include <string>
+
+#include "cli/frame_record.hpp"
+#include "cli/run.hpp"
+#include "sslam/io/dataset.hpp"
+
+namespace sslam::cli {
+
+// What the report says about the run besides its outcome.
+struct RunContext {
+  const RunSettings& settings;
+  const io::Dataset& dataset;
+  std::string camera_source;
+  Pinhole<double> pinhole;
+};
+
+// Writes all files into settings.out and prints the summary. Throws io::Error when a file cannot be written.
+void write_run(const RunContext& context, const RunOutcome& outcome);
+
+}  // namespace sslam::cli
