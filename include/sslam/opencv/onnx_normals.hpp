@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Normals from one image by a network: any ONNX model that its manifest describes, run by cv::dnn.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "sslam/opencv/depth_normals.hpp"
+#include "sslam/opencv/normal_evidence.hpp"
+#include "sslam/opencv/normal_manifest.hpp"
+#include "sslam/opencv/normal_source.hpp"
+#include "sslam/opencv/onnx_network.hpp"
+
+namespace sslam {
+
+struct OnnxNormalsOptions {
+  double max_norm_error = 0.15;  // of an output vector from unit length: beyond, it is no normal
+  double max_bad_share = 0.05;   // of output vectors that are no normals: beyond, the frame is refused
+  NormalEvidenceOptions evidence;
+  DepthNormalsOptions depth;  // for models whose output is depth
+};
+
+// Of the last frame.
+struct OnnxNormalsReport {
+  NormalEvidence evidence;
+  double bad_share = 0;  // of the output that is not finite or not unit
+};
+
+class OnnxNormals {
+ public:
+  OnnxNormalsOptions options;
+
+  // `file` is the manifest, or the model with its manifest beside it (same name, .json). Runs the model once.
+  // Throws NormalModelError with one line that names file and field when they do not fit.
+  explicit OnnxNormals(const std::filesystem::path& file)
+      : network_(read_normal_manifest(manifest_of(file))) {
+    if (manifest().kind != NetworkOutput::kNormals) return;
+    decode(dense_);
+    if (report_.bad_share > options.max_bad_share)
+      throw NormalModelError(manifest().file.string() + ": output.name: " +
+                             std::to_string(std::lround(100 * report_.bad_share)) + " % of '" +
+                             manifest().output + "' is not finite or not of unit length (see output.range)");
+  }
+
+  [[nodiscard]] const NormalManifest& manifest() const noexcept { return network_.manifest(); }
+  [[nodiscard]] const OnnxNormalsReport& report() const noexcept { return report_; }
+
+  // "No Manhattan evidence" (report().evidence) is kOk with an empty field: there is nothing wrong with the
+  // frame.
+  [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
+    field.clear();
+    report_ = {};
+    if (manifest().kind == NetworkOutput::kNormals) {
+      const NormalStatus status = infer(input.image, camera, dense_);
+      if (status == NormalStatus::kOk) report_.evidence = select_normals(dense_, options.evidence, field);
+      return status;
+    }
+    return fill_from_depth(input, camera, field);
+  }
+
+  // The whole answer of a model of normals, at the resolution of its output.
+  [[nodiscard]] NormalStatus infer(const cv::Mat& image, const Camera<double>& camera, DenseNormals& dense) {
+    const NormalStatus status = network_.run(image, camera);
+    if (status != NormalStatus::kOk) return status;
+    decode(dense);
+    return report_.bad_share > options.max_bad_share ? NormalStatus::kUnreadable : NormalStatus::kOk;
+  }
+
+ private:
+  static std::filesystem::path manifest_of(std::filesystem::path file) {
+    if (file.extension() != ".onnx") return file;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored))
+      throw NormalModelError(file.string() + ": no such model");
+    return file.replace_extension(".json");
+  }
+
+  // Fills report_.bad_share. Vectors that turn away from the camera, or show what the camera does not, are
+  // dropped.
+  void decode(DenseNormals& dense) {
+    const NormalManifest& m = manifest();
+    const std::array<cv::Mat_<float>, 3> channel{network_.channel(0), network_.channel(1),
+                                                 network_.channel(2)};
+    dense.pinhole = network_.output_pinhole();
+    dense.normal.create(channel[0].size());
+    dense.planar = network_.mask().clone();
+    dense.confidence = network_.confidence().clone();
+    const double low = m.range[0], to_unit = 2 / (m.range[1] - low);
+    std::size_t bad = 0;
+    for (int v = 0; v < dense.normal.rows; ++v) {
+      for (int u = 0; u < dense.normal.cols; ++u) {
+        Vec3<double> n;
+        for (std::size_t c = 0; c < 3; ++c)
+          n[m.axis[c]] = m.sign[c] * ((static_cast<double>(channel[c](v, u)) - low) * to_unit - 1);
+        const double norm = n.norm();
+        const bool unit = std::abs(norm - 1) <= options.max_norm_error && std::isfinite(dense.weight(v, u));
+        bad += unit ? 0U : 1U;
+        const bool keep =
+            unit && network_.inside(u, v) && n.dot(dense.pinhole.unproject(Vec2<double>(u, v))) < 0;
+        if (keep) n /= norm;
+        dense.normal(v, u) =
+            keep ? cv::Vec3f(static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z()))
+                 : cv::Vec3f();
+      }
+    }
+    report_.bad_share = static_cast<double>(bad) / static_cast<double>(dense.normal.total());
+  }
+
+  NormalStatus fill_from_depth(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
+    const NormalStatus status = network_.run(input.image, camera);
+    if (status != NormalStatus::kOk) return status;
+    ImageInput depth;
+    depth.depth = network_.channel(0) * manifest().depth_scale;
+    if (manifest().kind == NetworkOutput::kInverseDepth) depth.depth = 1.0 / depth.depth;
+    depth.depth.setTo(0, depth.depth != depth.depth);  // NaN: no measurement
+    const Camera<double> seen{network_.output_pinhole(), {}, depth.depth.cols, depth.depth.rows};
+    depth_.options = options.depth;
+    const NormalStatus answer = depth_.fill(depth, seen, field);
+    report_.evidence.enough = field.size() > 0;
+    return answer;
+  }
+
+  OnnxNetwork network_;
+  OnnxNormalsReport report_;
+  DenseNormals dense_;
+  DepthNormals depth_;
+};
+static_assert(NormalSource<OnnxNormals>);
+
+}  // namespace sslam
