@@ -119,38 +119,6 @@ template <Scalar S>
   return sum;
 }
 
-// Both over the flows of the sample that the gate accepts.
-template <Scalar S>
-struct ParallaxMedians {
-  S angle = 0;                                 // between R_10 x0 and x1, rad
-  S nearness = std::numeric_limits<S>::max();  // inverse depth of the moved ones, in baselines
-};
-
-template <Scalar S>
-[[nodiscard]] S median(std::span<S> values) noexcept {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-template <Scalar S>
-[[nodiscard]] ParallaxMedians<S> parallax_medians(const FlowSample<S>& sample, const FlowGate<S>& gate,
-                                                  const Vec3<S>& t_10) noexcept {
-  std::array<S, FlowSample<S>::kCapacity> angles, nearness;
-  std::size_t accepted = 0, moved = 0;
-  for (const Flow<S>& flow : sample.view()) {
-    const EpipolarFit<S> fit = epipolar_fit(flow, t_10);
-    if (!gate.accepts(fit)) continue;
-    const S cosine = 1 + flow.midpoint.squaredNorm() - flow.squared_length() / 4;
-    angles[accepted++] = std::atan2(flow.normal.norm(), cosine);
-    if (fit.along > gate.max_error) nearness[moved++] = fit.along / fit.unit;
-  }
-  ParallaxMedians<S> medians;
-  if (accepted > 0) medians.angle = median(std::span<S>(angles.data(), accepted));
-  if (moved > 0) medians.nearness = median(std::span<S>(nearness.data(), moved));
-  return medians;
-}
-
 // Mean of the truncated squared errors of a direction over those flows that the gate accepts at t_10.
 template <Scalar S>
 [[nodiscard]] S rival_error(const FlowSample<S>& sample, const FlowGate<S>& gate, const Vec3<S>& t_10,
@@ -219,12 +187,12 @@ template <Scalar S>
   if (!search.run(sample, random, t)) return refuse(Status::kDegenerate);
 
   FlowGate<S> gate = search.gate;
-  gate.nearest = options.max_nearness * detail::parallax_medians(sample, gate, t).nearness;
+  gate.nearest = options.max_nearness * parallax_medians(sample, gate, t).nearness;
   detail::TranslationTally<S> sum = detail::tally(matches, R, t, options, gate);
   for (int iteration = 0; iteration < 3 && sum.equations.step(sum.basis, t); ++iteration)
     sum = detail::tally(matches, R, t, options, gate);
   estimate.t_10 = t;
-  estimate.parallax = detail::parallax_medians(sample, gate, t).angle;
+  estimate.parallax = parallax_medians(sample, gate, t).angle;
   estimate.status = detail::judge(sum, sample, gate, matches.size(), options, estimate);
   if (!usable(estimate.status) || inliers.size() != matches.size()) return estimate;
   Flow<S> flow;

@@ -4,64 +4,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 
 #include "sslam/core/random.hpp"
-#include "sslam/solver/flow.hpp"
+#include "sslam/solver/flow_sample.hpp"
 
 namespace sslam {
-
-// At most kCapacity matches, spread evenly over the list, so that time and stack do not grow with it.
-template <Scalar S>
-struct FlowSample {
-  static constexpr int kCapacity = 256;
-  std::array<Flow<S>, kCapacity> flows;
-  std::array<std::uint16_t, kCapacity>
-      moved;  // the flows longer than min_parallax: only these tell a direction
-  int size = 0;
-  int moved_count = 0;
-
-  FlowSample(std::span<const BearingMatch<S>> matches, const Mat3<S>& R_10, S rotation_sigma, S min_parallax,
-             Random& random) noexcept {
-    const std::size_t slots = std::min(matches.size(), std::size_t{kCapacity});
-    for (std::size_t slot = 0; slot < slots; ++slot) {
-      const std::size_t begin = slot * matches.size() / slots;
-      const std::size_t end = (slot + 1) * matches.size() / slots;
-      const std::size_t i = begin + random.below(static_cast<std::uint32_t>(end - begin));
-      Flow<S>& flow = flows[static_cast<std::size_t>(size)];
-      if (!compensate(R_10, matches[i], rotation_sigma, flow)) continue;
-      if (flow.weight * flow.squared_length() > min_parallax * min_parallax)
-        moved[static_cast<std::size_t>(moved_count++)] = static_cast<std::uint16_t>(size);
-      ++size;
-    }
-  }
-
-  [[nodiscard]] std::span<const Flow<S>> view() const noexcept {
-    return {flows.data(), static_cast<std::size_t>(size)};
-  }
-  [[nodiscard]] const Flow<S>& moved_flow(int i) const noexcept {
-    return flows[moved[static_cast<std::size_t>(i)]];
-  }
-};
-
-// Which flows agree with a direction.
-template <Scalar S>
-struct FlowGate {
-  S max_error = 3;                            // standard deviations from the epipolar half-line
-  S nearest = std::numeric_limits<S>::max();  // largest inverse depth, in baselines
-
-  [[nodiscard]] bool accepts(const EpipolarFit<S>& fit) const noexcept {
-    const S behind = std::min(fit.along, S(0));
-    return fit.across * fit.across + behind * behind < max_error * max_error &&
-           fit.along - max_error < nearest * fit.unit;
-  }
-  [[nodiscard]] bool accepts(const Flow<S>& flow, const Vec3<S>& t_10) const noexcept {
-    return accepts(epipolar_fit(flow, t_10));
-  }
-};
 
 template <Scalar S>
 struct TranslationSearch {

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rotation alone that carries the bearings of one view over to another (Wahba's problem, robust): how
+// many matches it explains tells a pure rotation from a translation.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "sslam/core/random.hpp"
+#include "sslam/core/status.hpp"
+#include "sslam/geometry/so3.hpp"
+#include "sslam/solver/epipolar.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct RotationFromBearingsOptions {
+  S max_error = 3;              // largest angle between R_10 x0 and x1 of an inlier, standard deviations
+  S max_sigma = S(0.02);        // of the rotation about any axis, rad: else kDegenerate
+  S min_inlier_share = S(0.3);  // of all matches: else kNoConsensus
+  int min_inliers = 10;
+  int max_samples = 100;    // pairs of matches tried at most
+  S confidence = S(0.999);  // that one of the pairs is free of mismatches
+};
+
+template <Scalar S>
+struct RotationFromBearings {
+  Status status = Status::kTooFew;
+  SO3<S> R_10;                           // the best found, unless kTooFew or kNotFinite
+  Mat3<S> covariance = Mat3<S>::Zero();  // of its left perturbation, rad^2
+  int inliers = 0;
+};
+
+namespace detail {
+
+// Unit bearings, and the inverse variance of either coordinate of their difference on the sphere.
+template <Scalar S>
+struct BearingPair {
+  Vec3<S> b0, b1;
+  S weight;
+
+  BearingPair() noexcept = default;
+  explicit BearingPair(const BearingMatch<S>& match) noexcept {
+    // The sphere shrinks areas of the image plane by the cube of the cosine, and so the noise.
+    const S cos0 = 1 / match.ray0.norm(), cos1 = 1 / match.ray1.norm();
+    b0 = match.ray0 * cos0;
+    b1 = match.ray1 * cos1;
+    weight = 1 / (match.sigma * match.sigma * (cos0 * cos0 * cos0 + cos1 * cos1 * cos1));
+  }
+  [[nodiscard]] S squared_error(const Mat3<S>& R_10) const noexcept {
+    return weight * (b1 - R_10 * b0).squaredNorm();
+  }
+};
+
+// Gauss-Newton on SO(3): with p = R b0, the error b1 - p has the derivative [p]x, and the normal matrix is
+// sum w (I - p p^T).
+template <Scalar S>
+struct BearingEquations {
+  Mat3<S> information = Mat3<S>::Zero();
+  Vec3<S> torque = Vec3<S>::Zero();
+  int count = 0;
+
+  void add(const BearingPair<S>& pair, const Mat3<S>& R_10, S max_squared_error) noexcept {
+    const S error = pair.squared_error(R_10);
+    if (!(error < max_squared_error)) return;
+    const S robust = error > S(2.25) ? S(1.5) / std::sqrt(error) : S(1);  // Huber
+    const Vec3<S> p = R_10 * pair.b0;
+    information += robust * pair.weight * (Mat3<S>::Identity() - p * p.transpose());
+    torque += robust * pair.weight * p.cross(pair.b1);
+    ++count;
+  }
+
+  [[nodiscard]] bool step(SO3<S>& R_10) const noexcept {
+    const Eigen::LLT<Mat3<S>> factor(information);
+    if (count < 2 || factor.info() != Eigen::Success) return false;
+    const Vec3<S> phi = factor.solve(torque);
+    if (!(phi.norm() < S(0.5))) return false;
+    R_10 = R_10.retract(phi);
+    return true;
+  }
+};
+
+// The rotation that carries one pair of directions to another (TRIAD, symmetric in the two). False when the
+// pairs are nearly parallel or do not include the same angle.
+template <Scalar S>
+[[nodiscard]] bool rotation_from_two(const BearingPair<S>& a, const BearingPair<S>& b, S max_error,
+                                     SO3<S>& R_10) noexcept {
+  const auto frame = [](const Vec3<S>& u, const Vec3<S>& v) {
+    Mat3<S> columns;
+    columns.col(0) = (u + v).normalized();
+    columns.col(1) = u.cross(v).normalized();
+    columns.col(2) = columns.col(0).cross(columns.col(1));
+    return columns;
+  };
+  const S chord0 = (a.b0 - b.b0).norm(), chord1 = (a.b1 - b.b1).norm();
+  constexpr S kLeastAngle = S(0.05);
+  if (std::min(chord0, chord1) < kLeastAngle || std::max(chord0, chord1) > S(1.9)) return false;
+  if (std::abs(chord0 - chord1) > max_error * std::sqrt(1 / a.weight + 1 / b.weight)) return false;
+  R_10 = SO3<S>::from_matrix(frame(a.b1, b.b1) * frame(a.b0, b.b0).transpose());
+  return true;
+}
+
+template <Scalar S>
+class RotationSearch {
+ public:
+  static constexpr std::size_t kCapacity = 256;
+
+  RotationSearch(std::span<const BearingMatch<S>> matches, const RotationFromBearingsOptions<S>& options,
+                 Random& random) noexcept
+      : options_(options), size_(std::min(matches.size(), kCapacity)) {
+    for (std::size_t slot = 0; slot < size_; ++slot) {
+      const std::size_t begin = slot * matches.size() / size_;
+      const std::size_t end = (slot + 1) * matches.size() / size_;
+      pairs_[slot] = BearingPair<S>(matches[begin + random.below(static_cast<std::uint32_t>(end - begin))]);
+    }
+  }
+
+  // The best of identity and the rotations of random pairs, each new best improved over its inliers.
+  [[nodiscard]] SO3<S> run(Random& random) const noexcept {
+    SO3<S> best;
+    S score = improve(best, std::numeric_limits<S>::max());
+    int budget = samples_needed(best);
+    for (int k = 0; k < budget; ++k) {
+      SO3<S> R;
+      if (!rotation_from_two(draw(random), draw(random), options_.max_error, R)) continue;
+      const S trial = improve(R, score);
+      if (!(trial < score)) continue;
+      score = trial;
+      best = R;
+      budget = std::min(budget, samples_needed(best));
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] const BearingPair<S>& draw(Random& random) const noexcept {
+    return pairs_[random.below(static_cast<std::uint32_t>(size_))];
+  }
+
+  // Truncated squared error, summed; stops above `limit`.
+  [[nodiscard]] S cost(const Mat3<S>& R, S limit) const noexcept {
+    S sum = 0;
+    for (std::size_t i = 0; i < size_ && sum < limit; ++i)
+      sum += std::min(pairs_[i].squared_error(R), options_.max_error * options_.max_error);
+    return sum;
+  }
+
+  // Returns the cost of R after improvement; R stays as it is when it does not come below `limit` at once.
+  [[nodiscard]] S improve(SO3<S>& R, S limit) const noexcept {
+    S score = cost(R.matrix(), limit);
+    if (!(score < limit)) return score;
+    for (int round = 0; round < 3; ++round) {
+      const Mat3<S> matrix = R.matrix();
+      BearingEquations<S> equations;
+      const S wide = 4 * options_.max_error * options_.max_error;
+      for (std::size_t i = 0; i < size_; ++i) equations.add(pairs_[i], matrix, wide);
+      SO3<S> better = R;
+      if (!equations.step(better)) break;
+      const S trial = cost(better.matrix(), score);
+      if (!(trial < score)) break;
+      score = trial;
+      R = better;
+    }
+    return score;
+  }
+
+  [[nodiscard]] int samples_needed(const SO3<S>& R) const noexcept {
+    const Mat3<S> matrix = R.matrix();
+    int good = 0;
+    for (std::size_t i = 0; i < size_; ++i)
+      good += pairs_[i].squared_error(matrix) < options_.max_error * options_.max_error;
+    const S share = static_cast<S>(good) / static_cast<S>(size_);
+    const S needed = std::log1p(-options_.confidence) / std::log1p(-std::min(share * share, S(0.99)));
+    return needed < static_cast<S>(options_.max_samples) ? static_cast<int>(needed) + 1
+                                                         : options_.max_samples;
+  }
+
+  RotationFromBearingsOptions<S> options_;
+  std::array<BearingPair<S>, kCapacity> pairs_;
+  std::size_t size_;
+};
+
+}  // namespace detail
+
+// min over R_10 of  sum |x1/|x1| - R_10 x0/|x0||^2  over the inliers; the same seed gives the same answer.
+// `inliers` (empty, or one flag a match) is written on success alone.
+template <Scalar S>
+[[nodiscard]] RotationFromBearings<S> rotation_from_bearings(std::span<const BearingMatch<S>> matches,
+                                                             const RotationFromBearingsOptions<S>& options,
+                                                             std::uint64_t seed,
+                                                             std::span<std::uint8_t> inliers = {}) noexcept {
+  RotationFromBearings<S> result;
+  const auto refuse = [&](Status status) {
+    result.status = status;
+    return result;
+  };
+  if (!std::all_of(matches.begin(), matches.end(), is_finite<S>)) return refuse(Status::kNotFinite);
+  if (static_cast<int>(matches.size()) < std::max(options.min_inliers, 2)) return result;
+
+  Random random(seed);
+  SO3<S> R = detail::RotationSearch<S>(matches, options, random).run(random);
+  const S gate = options.max_error * options.max_error;
+  detail::BearingEquations<S> sum;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const Mat3<S> matrix = R.matrix();
+    sum = {};
+    for (const BearingMatch<S>& match : matches) sum.add(detail::BearingPair<S>(match), matrix, gate);
+    if (!sum.step(R)) break;
+  }
+  result.R_10 = R;
+  result.inliers = sum.count;
+  if (sum.count < options.min_inliers ||
+      static_cast<S>(sum.count) < options.min_inlier_share * static_cast<S>(matches.size()))
+    return refuse(Status::kNoConsensus);
+  const Eigen::LLT<Mat3<S>> factor(sum.information);
+  if (factor.info() != Eigen::Success) return refuse(Status::kDegenerate);
+  result.covariance = factor.solve(Mat3<S>::Identity());
+  if (!(result.covariance.diagonal().maxCoeff() < options.max_sigma * options.max_sigma))
+    return refuse(Status::kDegenerate);
+  result.status = Status::kOk;
+  if (inliers.size() != matches.size()) return result;
+  const Mat3<S> matrix = R.matrix();
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    inliers[i] = detail::BearingPair<S>(matches[i]).squared_error(matrix) < gate;
+  return result;
+}
+
+}  // namespace sslam
