@@ -39,7 +39,8 @@ class Decor {
                                    Pattern::kSpeckle};
     if (!textured()) return {wall_};
     const Pattern pattern = kPatterns[random_.below(kPatterns.size())];
-    Paint paint = tinted(pattern == Pattern::kBricks ? 0.6f : 0.72f, 0.1f, pattern == Pattern::kPlaster ? 0.3f : 0.5f);
+    Paint paint =
+        tinted(pattern == Pattern::kBricks ? 0.6f : 0.72f, 0.1f, pattern == Pattern::kPlaster ? 0.3f : 0.5f);
     paint.texture = scene_.add(bake_pattern(pattern, width, height, texel_m_, bits()));
     return paint;
   }

@@ -18,15 +18,14 @@ struct View {
   SE3<double> cam_from_world;
 };
 
-// For a pixel p = (u, v, 1) on the plane of the face: inverse . p = 1/z, and (s, t) = (s_form . p, t_form . p) z.
-// From n . X = d with X = z K^-1 p: 1/z = (K^-T n / d) . p, and s = e_s . (X - O) likewise.
+// For a pixel p = (u, v, 1) on the plane of the face: inverse . p = 1/z, and (s, t) = (s_form . p, t_form .
+// p) z. From n . X = d with X = z K^-1 p: 1/z = (K^-T n / d) . p, and s = e_s . (X - O) likewise.
 struct FaceView {
   Vec3<double> inverse, s_form, t_form;
   Vec3<double> normal;   // camera frame
   int face;              // index in the scene
   double width, height;  // metres
   int first_row, last_row;
-
 
   // Neighbouring faces overlap by this much (metres), so that rounding leaves no crack between them.
   static constexpr double kOverlap = 1e-4;
@@ -99,7 +98,8 @@ struct RowSpan {
   out.width = face.width;
   out.height = face.height;
   out.first_row = all_before ? std::max(0, static_cast<int>(std::floor(top))) : 0;
-  out.last_row = all_before ? std::min(view.height - 1, static_cast<int>(std::ceil(bottom))) : view.height - 1;
+  out.last_row =
+      all_before ? std::min(view.height - 1, static_cast<int>(std::ceil(bottom))) : view.height - 1;
   return true;
 }
 

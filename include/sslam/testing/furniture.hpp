@@ -19,13 +19,20 @@ inline constexpr int kPieces = 7;
 [[nodiscard]] inline Vec3<double> random_size(Piece piece, Random& random) noexcept {
   const auto between = [&](double low, double high) { return random.uniform(low, high); };
   switch (piece) {
-    case Piece::kCupboard: return {between(0.8, 1.6), between(0.4, 0.6), between(1.6, 2.1)};
-    case Piece::kShelf: return {between(0.7, 1.3), between(0.25, 0.35), between(1.2, 2.0)};
-    case Piece::kTable: return {between(0.9, 1.5), between(0.6, 0.8), between(0.7, 0.76)};
-    case Piece::kSofa: return {between(1.4, 2.0), between(0.75, 0.9), between(0.7, 0.85)};
-    case Piece::kCartons: return {between(0.5, 0.9), between(0.4, 0.5), between(0.7, 1.2)};
-    case Piece::kDesk: return {between(1.1, 1.6), between(0.6, 0.75), between(0.7, 0.76)};
-    case Piece::kPillar: return {between(0.2, 0.4), between(0.2, 0.4), 0.0};
+    case Piece::kCupboard:
+      return {between(0.8, 1.6), between(0.4, 0.6), between(1.6, 2.1)};
+    case Piece::kShelf:
+      return {between(0.7, 1.3), between(0.25, 0.35), between(1.2, 2.0)};
+    case Piece::kTable:
+      return {between(0.9, 1.5), between(0.6, 0.8), between(0.7, 0.76)};
+    case Piece::kSofa:
+      return {between(1.4, 2.0), between(0.75, 0.9), between(0.7, 0.85)};
+    case Piece::kCartons:
+      return {between(0.5, 0.9), between(0.4, 0.5), between(0.7, 1.2)};
+    case Piece::kDesk:
+      return {between(1.1, 1.6), between(0.6, 0.75), between(0.7, 0.76)};
+    case Piece::kPillar:
+      return {between(0.2, 0.4), between(0.2, 0.4), 0.0};
   }
   return {1.0, 0.5, 1.0};
 }
@@ -36,14 +43,21 @@ class FurnitureMaker {
 
   void make(Piece piece, const Placement& place, const Vec3<double>& size) {
     switch (piece) {
-      case Piece::kCupboard: return cupboard(place, size);
-      case Piece::kShelf: return shelf(place, size);
-      case Piece::kTable: return table(place, size);
-      case Piece::kSofa: return sofa(place, size);
-      case Piece::kCartons: return cartons(place, size);
-      case Piece::kDesk: return desk(place, size);
+      case Piece::kCupboard:
+        return cupboard(place, size);
+      case Piece::kShelf:
+        return shelf(place, size);
+      case Piece::kTable:
+        return table(place, size);
+      case Piece::kSofa:
+        return sofa(place, size);
+      case Piece::kCartons:
+        return cartons(place, size);
+      case Piece::kDesk:
+        return desk(place, size);
       case Piece::kPillar:
-        box(place, {-0.5 * size.x(), 0.0, 0.0}, {0.5 * size.x(), size.y(), size.z()}, decor_.plain(0.6f, 0.9f));
+        box(place, {-0.5 * size.x(), 0.0, 0.0}, {0.5 * size.x(), size.y(), size.z()},
+            decor_.plain(0.6f, 0.9f));
     }
   }
 
@@ -56,8 +70,8 @@ class FurnitureMaker {
   }
 
   // Doors stand out from the body by 18 mm with gaps of 6 mm; each has a handle.
-  void fronts(const Placement& place, const Vec3<double>& low, const Vec3<double>& high, int columns, int rows,
-              const Paint& paint) {
+  void fronts(const Placement& place, const Vec3<double>& low, const Vec3<double>& high, int columns,
+              int rows, const Paint& paint) {
     constexpr double kGap = 0.003, kOut = 0.018;
     const Paint handle = decor_.plain(0.1f, 0.4f);
     for (int i = 0; i < columns * rows; ++i) {
@@ -66,7 +80,8 @@ class FurnitureMaker {
       const double y = low.y();
       box(place, {x + kGap, y, z + kGap}, {x + w - kGap, y + kOut, z + h - kGap}, paint, Sides::kAll);
       const bool tall = h > 0.5;
-      const double hx = tall ? (i % columns == 0 && columns > 1 ? x + w - 0.06 : x + 0.05) : x + 0.5 * w - 0.06;
+      const double hx =
+          tall ? (i % columns == 0 && columns > 1 ? x + w - 0.06 : x + 0.05) : x + 0.5 * w - 0.06;
       const double hz = tall ? z + 0.5 * h : z + 0.7 * h;
       const Vec3<double> size = tall ? Vec3<double>(0.015, 0.03, 0.14) : Vec3<double>(0.12, 0.03, 0.015);
       const Vec3<double> corner(hx, y + kOut, hz);
@@ -98,7 +113,8 @@ class FurnitureMaker {
     for (int i = 0; i <= boards; ++i) {
       const double z = (size.z() - kBoard) * i / boards;
       box(place, {-half + kBoard, 0.0, z}, {half - kBoard, size.y(), z + kBoard}, wood, Sides::kAll);
-      if (i < boards) fill(place, half - kBoard, size.y(), z + kBoard, (size.z() - kBoard) / boards - kBoard, filled);
+      if (i < boards)
+        fill(place, half - kBoard, size.y(), z + kBoard, (size.z() - kBoard) / boards - kBoard, filled);
     }
   }
 
@@ -109,7 +125,8 @@ class FurnitureMaker {
     if (books) {
       const double height = 0.8 * room;
       const Paint spines = decor_.books(static_cast<float>(width), static_cast<float>(height));
-      add_box(scene_, place, {-half, 0.02, z}, {-half + width, 0.8 * depth, z + height}, spines, Sides::kFront);
+      add_box(scene_, place, {-half, 0.02, z}, {-half + width, 0.8 * depth, z + height}, spines,
+              Sides::kFront);
       box(place, {-half, 0.02, z}, {-half + width, 0.8 * depth, z + height}, decor_.plain(0.3f, 0.7f),
           Sides::kTop | Sides::kLeft | Sides::kRight);
     } else if (random.below(3) != 0) {
@@ -139,7 +156,8 @@ class FurnitureMaker {
     Random& random = decor_.random();
     const double half = 0.5 * size.x();
     for (int i = 0; i < 3; ++i) {
-      const double x = -half + size.x() * (0.08 + 0.32 * i), width = 0.2 * size.x() * random.uniform(0.6, 1.0);
+      const double x = -half + size.x() * (0.08 + 0.32 * i),
+                   width = 0.2 * size.x() * random.uniform(0.6, 1.0);
       const double y = random.uniform(0.1, 0.35) * size.y(), z = size.z();
       box(place, {x, y, z}, {x + width, y + random.uniform(0.12, 0.25), z + random.uniform(0.04, 0.35)},
           decor_.furniture());
@@ -151,7 +169,8 @@ class FurnitureMaker {
     const Paint wood = decor_.furniture(), dark = decor_.plain(0.08f, 0.18f);
     legs(place, size, wood);
     box(place, {half - 0.5, 0.05, 0.0}, {half - 0.1, size.y() - 0.07, size.z() - 0.04}, wood);
-    fronts(place, {half - 0.5, size.y() - 0.07, 0.04}, {half - 0.1, size.y() - 0.07, size.z() - 0.04}, 1, 3, wood);
+    fronts(place, {half - 0.5, size.y() - 0.07, 0.04}, {half - 0.1, size.y() - 0.07, size.z() - 0.04}, 1, 3,
+           wood);
     const double z = size.z();  // a monitor on its foot
     box(place, {-0.12, 0.14, z}, {0.12, 0.3, z + 0.015}, dark);
     box(place, {-0.03, 0.2, z}, {0.03, 0.23, z + 0.15}, dark);
@@ -181,7 +200,8 @@ class FurnitureMaker {
     while (z < size.z() - 0.15) {
       const double height = random.uniform(0.22, 0.4);
       const double shift = random.uniform(-0.5, 0.5) * (0.5 * size.x() - half);
-      box(place, {shift - half, 0.02, z}, {shift + half, 0.02 + depth - 0.02, z + height}, decor_.furniture());
+      box(place, {shift - half, 0.02, z}, {shift + half, 0.02 + depth - 0.02, z + height},
+          decor_.furniture());
       z += height;
       half *= random.uniform(0.75, 0.98);
       depth *= random.uniform(0.8, 0.98);

@@ -37,7 +37,8 @@ namespace sslam::synth {
   return top + fy * (bottom - top);
 }
 
-// Octaves of value noise, each twice as fine and `gain` times as strong as the one before; in [0, 1], mean 0.5.
+// Octaves of value noise, each twice as fine and `gain` times as strong as the one before; in [0, 1], mean
+// 0.5.
 [[nodiscard]] inline float octave_noise(float x, float y, int octaves, float gain,
                                         std::uint32_t seed) noexcept {
   float sum = 0.0f, total = 0.0f, weight = 1.0f;

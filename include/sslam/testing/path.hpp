@@ -27,10 +27,10 @@ struct Route {
 };
 
 struct PathOptions {
-  double speed = 0.5;           // metres per second where the path is straight
-  double max_rate_deg = 35.0;   // degrees per second of yaw and pitch, before the tremor
-  double tremor = 1.0;          // 1: about 4 mm and 0.2 degrees
-  double knot_seconds = 0.4;    // spacing of the spline's knots
+  double speed = 0.5;          // metres per second where the path is straight
+  double max_rate_deg = 35.0;  // degrees per second of yaw and pitch, before the tremor
+  double tremor = 1.0;         // 1: about 4 mm and 0.2 degrees
+  double knot_seconds = 0.4;   // spacing of the spline's knots
 };
 
 class ClosedPath {
@@ -65,9 +65,11 @@ class ClosedPath {
       sway[static_cast<int>(i % 6)] += sways_[i].size * std::sin(sways_[i].rate * seconds + sways_[i].phase);
     }
     const double yaw = state[3] + sway[3], pitch = state[4] + sway[4], roll = sway[5];
-    const Vec3<double> forward(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+    const Vec3<double> forward(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch),
+                               std::sin(pitch));
     const Vec3<double> level(std::sin(yaw), -std::cos(yaw), 0.0);
-    const Vec3<double> steep(std::cos(yaw) * std::sin(pitch), std::sin(yaw) * std::sin(pitch), -std::cos(pitch));
+    const Vec3<double> steep(std::cos(yaw) * std::sin(pitch), std::sin(yaw) * std::sin(pitch),
+                             -std::cos(pitch));
     Mat3<double> axes;
     axes.col(0) = std::cos(roll) * level + std::sin(roll) * steep;
     axes.col(1) = std::cos(roll) * steep - std::sin(roll) * level;
@@ -105,10 +107,9 @@ class ClosedPath {
   [[nodiscard]] Vec<double, 5> spline(double seconds) const {
     const int n = static_cast<int>(knots_.size());
     const double place = seconds / lap_seconds_ * n, base = std::floor(place), x = place - base;
-    const std::array<double, 4> weight{(1.0 - x) * (1.0 - x) * (1.0 - x) / 6.0,
-                                       (3.0 * x * x * x - 6.0 * x * x + 4.0) / 6.0,
-                                       (-3.0 * x * x * x + 3.0 * x * x + 3.0 * x + 1.0) / 6.0,
-                                       x * x * x / 6.0};
+    const std::array<double, 4> weight{
+        (1.0 - x) * (1.0 - x) * (1.0 - x) / 6.0, (3.0 * x * x * x - 6.0 * x * x + 4.0) / 6.0,
+        (-3.0 * x * x * x + 3.0 * x * x + 3.0 * x + 1.0) / 6.0, x * x * x / 6.0};
     Vec<double, 5> sum = Vec<double, 5>::Zero();
     for (int k = 0; k < 4; ++k) {
       const int index = static_cast<int>(base) + k - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Procedural surfaces as one grey value in [0, 1] (mean about 0.5) per point in metres: plaster, wallpaper, wood,
-// tiles, bricks, carpet. A paint turns the value into a colour.
+// Procedural surfaces as one grey value in [0, 1] (mean about 0.5) per point in metres: plaster, wallpaper,
+// wood, tiles, bricks, carpet. A paint turns the value into a colour.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,8 @@ enum class Pattern : std::uint8_t { kPlaster, kSpeckle, kWood, kPlanks, kTiles, 
   constexpr float kSide = 0.3f;
   const float joint = std::min(to_multiple(s, kSide), to_multiple(t, kSide));
   const int x = static_cast<int>(std::floor(s / kSide)), y = static_cast<int>(std::floor(t / kSide));
-  const float cloud = octave_noise(9.0f * s + 31.0f * lattice_value(x, y, seed), 9.0f * t, 4, 0.65f, seed + 1);
+  const float cloud =
+      octave_noise(9.0f * s + 31.0f * lattice_value(x, y, seed), 9.0f * t, 4, 0.65f, seed + 1);
   const float body = 0.35f + 0.25f * lattice_value(x, y, seed + 2) + 0.4f * (cloud - 0.25f);
   return 0.1f + (body - 0.1f) * smooth_step(0.002f, 0.005f, joint);
 }
@@ -98,14 +99,22 @@ enum class Pattern : std::uint8_t { kPlaster, kSpeckle, kWood, kPlanks, kTiles, 
 
 [[nodiscard]] inline float evaluate(Pattern pattern, float s, float t, std::uint32_t seed) noexcept {
   switch (pattern) {
-    case Pattern::kPlaster: return plaster(s, t, seed);
-    case Pattern::kSpeckle: return speckle(s, t, seed);
-    case Pattern::kWood: return wood(s, t, seed);
-    case Pattern::kPlanks: return planks(s, t, seed);
-    case Pattern::kTiles: return tiles(s, t, seed);
-    case Pattern::kBricks: return bricks(s, t, seed);
-    case Pattern::kStripes: return stripes(s, t, seed);
-    case Pattern::kCarpet: return carpet(s, t, seed);
+    case Pattern::kPlaster:
+      return plaster(s, t, seed);
+    case Pattern::kSpeckle:
+      return speckle(s, t, seed);
+    case Pattern::kWood:
+      return wood(s, t, seed);
+    case Pattern::kPlanks:
+      return planks(s, t, seed);
+    case Pattern::kTiles:
+      return tiles(s, t, seed);
+    case Pattern::kBricks:
+      return bricks(s, t, seed);
+    case Pattern::kStripes:
+      return stripes(s, t, seed);
+    case Pattern::kCarpet:
+      return carpet(s, t, seed);
   }
   return 0.5f;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Printed things in colour: posters with random shapes and lines of text-like marks, rows of book spines, and the
-// blurred view out of a window.
+// Printed things in colour: posters with random shapes and lines of text-like marks, rows of book spines, and
+// the blurred view out of a window.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders a scene without noise. Pixels inside a face are shaded once with filtered textures; pixels near an edge
-// average 16 points spread like a camera's point spread function, so that an edge lies where geometry puts it.
+// Renders a scene without noise. Pixels inside a face are shaded once with filtered textures; pixels near an
+// edge average 32 points spread like a camera's point spread function, so that an edge lies where geometry
+// puts it.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +23,10 @@ class Renderer {
   explicit Renderer(const Scene& scene) : scene_(scene) {
     for (int i = 0; i < kSamples; ++i) {
       int reversed = 0;
-      for (int bit = 0; bit < 4; ++bit) reversed |= (i >> bit & 1) << (3 - bit);
-      offsets_[i] = kBlur * Vec2<double>(normal_quantile((i + 0.5) / kSamples), normal_quantile((reversed + 0.5) / kSamples)).cast<float>();
+      for (int bit = 0; bit < kBits; ++bit) reversed |= (i >> bit & 1) << (kBits - 1 - bit);
+      offsets_[i] = kBlur * Vec2<double>(normal_quantile((i + 0.5) / kSamples),
+                                         normal_quantile((reversed + 0.5) / kSamples))
+                                .cast<float>();
     }
   }
 
@@ -60,7 +63,7 @@ class Renderer {
     float width, height;
     int face;
   };
-  static constexpr int kSamples = 16;
+  static constexpr int kBits = 5, kSamples = 1 << kBits;
   static constexpr double kBlur = 0.45;  // standard deviation of the point spread function, pixels
 
   static float light_at(const LightMap& map, float s, float t, float width, float height) noexcept {

@@ -12,11 +12,11 @@ namespace sslam::synth {
 
 struct RenderedFrame {
   int width = 0, height = 0;
-  std::vector<float> rgb;               // display values, 3 per pixel, row by row; averaged over the pixel's area
-  std::vector<float> inverse_depth;     // 1/z per metre at the pixel's centre, 0 where nothing is seen
-  std::vector<std::int32_t> surface;    // index into normals at the pixel's centre, -1 where nothing is seen
-  std::vector<Vec3<float>> normals;     // camera frame, unit, towards the camera
-  std::vector<std::int32_t> face;       // the scene's face of each entry of normals
+  std::vector<float> rgb;  // display values, 3 per pixel, row by row; averaged over the pixel's area
+  std::vector<float> inverse_depth;   // 1/z per metre at the pixel's centre, 0 where nothing is seen
+  std::vector<std::int32_t> surface;  // index into normals at the pixel's centre, -1 where nothing is seen
+  std::vector<Vec3<float>> normals;   // camera frame, unit, towards the camera
+  std::vector<std::int32_t> face;     // the scene's face of each entry of normals
 
   void resize(int new_width, int new_height) {
     width = new_width;

@@ -11,8 +11,8 @@
 
 namespace sslam::synth {
 
-// Colours are display values (gamma encoded) in [0, 1], order red, green, blue. A texture of one channel moves the
-// colour by swing * (value - 0.5); one of three channels replaces it. -1: no texture.
+// Colours are display values (gamma encoded) in [0, 1], order red, green, blue. A texture of one channel
+// moves the colour by swing * (value - 0.5); one of three channels replaces it. -1: no texture.
 struct Paint {
   Vec3<float> colour = Vec3<float>::Constant(0.8f);
   Vec3<float> swing = Vec3<float>::Zero();
@@ -63,7 +63,8 @@ struct Scene {
   }
 };
 
-// A right-handed frame standing on the floor: x along a wall or a piece of furniture, y away from the wall, z up.
+// A right-handed frame standing on the floor: x along a wall or a piece of furniture, y away from the wall, z
+// up.
 struct Placement {
   Vec2<double> at = Vec2<double>::Zero();
   double yaw = 0.0;

@@ -15,10 +15,10 @@
 namespace sslam::synth {
 
 struct SensorOptions {
-  float noise = 1.5f;            // standard deviation, grey levels
-  float vignetting = 0.12f;      // loss of display value in the corners
-  float exposure_swing = 0.0f;   // the largest step of exposure, as a share of the display value
-  float exposure_hold = 1.5f;    // seconds between two steps
+  float noise = 1.5f;           // standard deviation, grey levels
+  float vignetting = 0.12f;     // loss of display value in the corners
+  float exposure_swing = 0.0f;  // the largest step of exposure, as a share of the display value
+  float exposure_hold = 1.5f;   // seconds between two steps
 };
 
 class Sensor {
@@ -27,12 +27,13 @@ class Sensor {
     for (int i = 0; i < kLevels; ++i) normal_[i] = static_cast<float>(normal_quantile((i + 0.5) / kLevels));
   }
 
-  // 8-bit values, 3 per pixel, in the order of the frame. The noise depends on the seed and the frame's number
-  // alone. Most of it is shared by the channels, as after demosaicing.
+  // 8-bit values, 3 per pixel, in the order of the frame. The noise depends on the seed and the frame's
+  // number alone. Most of it is shared by the channels, as after demosaicing.
   void expose(const RenderedFrame& frame, int number, double seconds, std::vector<std::uint8_t>& out) const {
     out.resize(frame.rgb.size());
     const float gain = 255.0f * exposure(seconds);
-    const float cx = 0.5f * static_cast<float>(frame.width - 1), cy = 0.5f * static_cast<float>(frame.height - 1);
+    const float cx = 0.5f * static_cast<float>(frame.width - 1),
+                cy = 0.5f * static_cast<float>(frame.height - 1);
     const float fall = options_.vignetting / (cx * cx + cy * cy);
     const float shared = 0.85f * options_.noise, own = 0.53f * options_.noise;
     Random random(seed_ ^ (0xD1B54A32D192ED03ULL * static_cast<std::uint64_t>(number + 1)));
@@ -45,7 +46,8 @@ class Sensor {
         const std::uint64_t bits = random.next();
         const float common = shared * normal_[bits % kLevels] + 0.5f;
         for (int c = 0; c < 3; ++c, ++i) {
-          const float value = frame.rgb[i] * level + common + own * normal_[bits >> (12 * (c + 1)) & (kLevels - 1)];
+          const float value =
+              frame.rgb[i] * level + common + own * normal_[bits >> (12 * (c + 1)) & (kLevels - 1)];
           out[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f));
         }
       }

@@ -11,18 +11,20 @@
 namespace sslam::synth {
 
 // Pixels that the middle and the corner of the image move between two poses, for things 2 m away.
-[[nodiscard]] inline double image_motion(const View& view, const SE3<double>& from, const SE3<double>& to) noexcept {
+[[nodiscard]] inline double image_motion(const View& view, const SE3<double>& from,
+                                         const SE3<double>& to) noexcept {
   const SE3<double> to_from = to * from.inverse();
   double most = 0.0;
-  for (const Vec2<double>& pixel : {Vec2<double>(0.5 * view.width, 0.5 * view.height), Vec2<double>(0.0, 0.0)}) {
+  for (const Vec2<double>& pixel :
+       {Vec2<double>(0.5 * view.width, 0.5 * view.height), Vec2<double>(0.0, 0.0)}) {
     const Vec3<double> moved = to_from * Vec3<double>(2.0 * view.pinhole.unproject(pixel));
     if (moved.z() > 0.1) most = std::max(most, (view.pinhole.project(moved) - pixel).norm());
   }
   return most;
 }
 
-// Renders at `seconds` with the shutter open for `open` seconds around it, one exposure for each pixel of motion;
-// depth and normals are those of the middle. pose_at(t) gives cam_from_world.
+// Renders at `seconds` with the shutter open for `open` seconds around it, one exposure for each pixel of
+// motion; depth and normals are those of the middle. pose_at(t) gives cam_from_world.
 template <class PoseAt>
 void render_open_shutter(Renderer& renderer, const PoseAt& pose_at, double seconds, double open, View view,
                          RenderedFrame& frame) {

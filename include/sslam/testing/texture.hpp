@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mipmapped 8-bit texture measured in metres, read with trilinear filtering and a few probes along the long
-// axis of the pixel's footprint: far and grazing surfaces lose detail as they do in a camera, without shimmer.
+// axis of the pixel's footprint: far and grazing surfaces lose detail as they do in a camera, without
+// shimmer.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,8 @@ class Texture {
   static Texture bake(float width_m, float height_m, float texel_m, int channels, F&& texel) {
     Texture texture(channels, texel_m);
     Level level{std::max(2, static_cast<int>(std::ceil(width_m / texel_m))),
-                std::max(2, static_cast<int>(std::ceil(height_m / texel_m))), {}};
+                std::max(2, static_cast<int>(std::ceil(height_m / texel_m))),
+                {}};
     level.texels.resize(static_cast<std::size_t>(level.width) * level.height * channels);
     std::uint8_t* out = level.texels.data();
     std::array<float, 3> value{};

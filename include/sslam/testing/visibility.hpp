@@ -70,7 +70,8 @@ class Visibility {
       if (!(span.low <= span.high)) continue;
       const int first = static_cast<int>(std::ceil(span.low));
       const int count = static_cast<int>(std::floor(span.high)) - first + 1;
-      const float start = static_cast<float>(face.inverse.x() * first + face.inverse.y() * y + face.inverse.z());
+      const float start =
+          static_cast<float>(face.inverse.x() * first + face.inverse.y() * y + face.inverse.z());
       const float slope = static_cast<float>(face.inverse.x());
       const std::size_t offset = static_cast<std::size_t>(y) * frame.width + first;
       float* nearest = &frame.inverse_depth[offset];
@@ -104,14 +105,15 @@ class Visibility {
 
   void outline(const Scene& scene, const View& view, std::int32_t id, const RenderedFrame& frame) {
     const Face& face = scene.faces[faces_[id].face];
-    const std::array<Vec3<double>, 4> corner{
-        view.cam_from_world * face.at(0.0, 0.0), view.cam_from_world * face.at(face.width, 0.0),
-        view.cam_from_world * face.at(face.width, face.height), view.cam_from_world * face.at(0.0, face.height)};
+    const std::array<Vec3<double>, 4> corner{view.cam_from_world * face.at(0.0, 0.0),
+                                             view.cam_from_world * face.at(face.width, 0.0),
+                                             view.cam_from_world * face.at(face.width, face.height),
+                                             view.cam_from_world * face.at(0.0, face.height)};
     for (int i = 0; i < 4; ++i) edge(view, id, corner[i], corner[(i + 1) % 4], frame);
   }
 
-  // Walks one edge pixel by pixel and notes the face wherever the edge is not hidden: a face too thin to cover a
-  // pixel's centre is found here.
+  // Walks one edge pixel by pixel and notes the face wherever the edge is not hidden: a face too thin to
+  // cover a pixel's centre is found here.
   void edge(const View& view, std::int32_t id, Vec3<double> a, Vec3<double> b, const RenderedFrame& frame) {
     constexpr double kNear = 0.02;
     if (a.z() < kNear && b.z() < kNear) return;
@@ -125,7 +127,7 @@ class Visibility {
     const int limit[2] = {frame.width - 1, frame.height - 1};
     const int first = static_cast<int>(std::ceil(std::clamp(p[major] - 1.0, 0.0, limit[major] + 1.0)));
     const int last = static_cast<int>(std::floor(std::clamp(q[major] + 1.0, -1.0, limit[major] * 1.0)));
-    const double reach = 0.85 + 0.35 * std::abs(slope);
+    const double reach = 1.0 + 0.5 * std::abs(slope);
     for (int i = first; i <= last; ++i) {
       const double across = p[minor] + slope * (std::clamp(i * 1.0, p[major], q[major]) - p[major]);
       if (across < -2.0 || across > limit[minor] + 2.0) continue;

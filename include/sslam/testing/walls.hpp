@@ -30,8 +30,8 @@ struct Wall {
 }
 
 // One flat piece of the wall; the texture runs on across pieces.
-inline void add_wall_piece(Scene& scene, const Wall& wall, double left, double right, double bottom, double top,
-                           Paint paint) {
+inline void add_wall_piece(Scene& scene, const Wall& wall, double left, double right, double bottom,
+                           double top, Paint paint) {
   if (right - left < 1e-6 || top - bottom < 1e-6) return;
   paint.offset += Vec2<float>(static_cast<float>(wall.length - right), static_cast<float>(bottom));
   add_box(scene, wall.place, {left, -0.01, bottom}, {right, 0.0, top}, paint, Sides::kFront);
@@ -45,7 +45,8 @@ inline void add_reveal(Scene& scene, const Wall& wall, const Opening& o, const P
   add_box(scene, wall.place, {o.left - kThin, back, o.bottom}, {o.left, 0.0, o.top}, paint, Sides::kRight);
   add_box(scene, wall.place, {o.right, back, o.bottom}, {o.right + kThin, 0.0, o.top}, paint, Sides::kLeft);
   add_box(scene, wall.place, {o.left, back, o.top}, {o.right, 0.0, o.top + kThin}, paint, Sides::kBottom);
-  add_box(scene, wall.place, {o.left, back, o.bottom - kThin}, {o.right, 0.0, o.bottom}, threshold, Sides::kTop);
+  add_box(scene, wall.place, {o.left, back, o.bottom - kThin}, {o.right, 0.0, o.bottom}, threshold,
+          Sides::kTop);
 }
 
 // The frame that stands out around an opening; a door's has no lower bar.
@@ -67,7 +68,8 @@ inline void add_door_leaf(Scene& scene, const Wall& wall, const Opening& o, Deco
   const double back = -o.depth, face = back + 0.04;
   add_box(scene, wall.place, {o.left, back, o.bottom}, {o.right, face, o.top}, leaf, Sides::kFront);
   for (const double low : {0.15, 1.05}) {
-    add_box(scene, wall.place, {o.left + 0.14, face, low}, {o.right - 0.14, face + 0.012, low + 0.75}, darker);
+    add_box(scene, wall.place, {o.left + 0.14, face, low}, {o.right - 0.14, face + 0.012, low + 0.75},
+            darker);
   }
   add_box(scene, wall.place, {o.left + 0.04, face, 1.0}, {o.left + 0.17, face + 0.05, 1.025},
           decor.plain(0.15f, 0.4f));
@@ -83,8 +85,11 @@ inline void add_window_pane(Scene& scene, const Wall& wall, const Opening& o, De
   add_box(scene, wall.place, {middle - 0.025, back, o.bottom}, {middle + 0.025, back + 0.05, o.top}, bar);
   const double cross = o.bottom + 0.65 * height;
   add_box(scene, wall.place, {o.left, back, cross - 0.02}, {o.right, back + 0.04, cross + 0.02}, bar);
-  scene.lamps.push_back({wall.place.point(middle, 0.05, o.bottom + 0.5 * height), 0.5 * width * wall.place.x_axis(),
-                         {0.0, 0.0, 0.5 * height}, wall.place.y_axis(), decor.random().uniform(0.6, 1.6)});
+  scene.lamps.push_back({wall.place.point(middle, 0.05, o.bottom + 0.5 * height),
+                         0.5 * width * wall.place.x_axis(),
+                         {0.0, 0.0, 0.5 * height},
+                         wall.place.y_axis(),
+                         decor.random().uniform(0.6, 1.6)});
 }
 
 inline void add_skirting(Scene& scene, const Wall& wall, const Paint& paint) {
@@ -134,7 +139,8 @@ inline void hang_posters(Scene& scene, const Wall& wall, int wanted, Decor& deco
     const Paint paint = decor.poster(static_cast<float>(width), static_cast<float>(height));
     add_box(scene, wall.place, {left, 0.0, bottom}, {left + width, 0.012, bottom + height}, decor.trim(),
             Sides::kAll & ~Sides::kFront & ~Sides::kBack);
-    add_box(scene, wall.place, {left, 0.0, bottom}, {left + width, 0.012, bottom + height}, paint, Sides::kFront);
+    add_box(scene, wall.place, {left, 0.0, bottom}, {left + width, 0.012, bottom + height}, paint,
+            Sides::kFront);
     --wanted;
   }
 }
