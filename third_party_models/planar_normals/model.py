@@ -157,8 +157,24 @@ class PlanarNormals(nn.Module):
         return self.head(F.relu(y))
 
 
-def relu6(x):  # as a clamp, since hardtanh has no bfloat16 gradient in older PyTorch
-    return x.clamp(0, 6)
+class Bfloat16Relu6(torch.autograd.Function):
+    """Older PyTorch has no bfloat16 gradient for relu6, and that of clamp is slow."""
+
+    @staticmethod
+    def forward(ctx, x):
+        y = x.clamp(0, 6)
+        ctx.save_for_backward(y)
+        return y
+
+    @staticmethod
+    def backward(ctx, gradient):
+        (y,) = ctx.saved_tensors
+        gradient = torch.ops.aten.threshold_backward(gradient, y, 0)
+        return torch.ops.aten.threshold_backward(gradient, 6 - y, 0)
+
+
+def relu6(x):
+    return Bfloat16Relu6.apply(x) if x.requires_grad and x.dtype == torch.bfloat16 else F.relu6(x)
 
 
 def up2(x):

@@ -203,8 +203,10 @@ class Trainer:
         loader = iter(torch.utils.data.DataLoader(Mixture(sources), batch_sampler=batches, num_workers=args.workers,
                                                   worker_init_fn=start_worker))
         sums, count, last, validated = {}, 0, time.monotonic(), self.used
-        done = False
+        done, parent = False, os.getppid()
         while not done:
+            if os.getppid() != parent:  # the process that started this one was ended
+                return
             now = time.monotonic()
             self.used, last = self.used + now - last, now
             for key, value in self.train_step(next(loader)).items():

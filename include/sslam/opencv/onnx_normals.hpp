@@ -2,10 +2,12 @@
 // Normals from one image by a network: any ONNX model that its manifest describes, run by cv::dnn.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "sslam/opencv/depth_normals.hpp"
@@ -109,14 +111,24 @@ class OnnxNormals {
     report_.bad_share = static_cast<double>(bad) / static_cast<double>(dense.normal.total());
   }
 
+  static constexpr int kDepthWidth = 320;  // pixels
+
   NormalStatus fill_from_depth(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     const NormalStatus status = network_.run(input.image, camera);
     if (status != NormalStatus::kOk) return status;
+    const cv::Mat_<float> output = network_.channel(0);
+    // Small maps are enlarged: the depth source fits its planes to blocks of pixels.
+    const int factor = std::max(1, kDepthWidth / output.cols);
     ImageInput depth;
-    depth.depth = network_.channel(0) * manifest().depth_scale;
+    cv::resize(output * manifest().depth_scale, depth.depth, {}, factor, factor, cv::INTER_LINEAR);
     if (manifest().kind == NetworkOutput::kInverseDepth) depth.depth = 1.0 / depth.depth;
     depth.depth.setTo(0, depth.depth != depth.depth);  // NaN: no measurement
-    const Camera<double> seen{network_.output_pinhole(), {}, depth.depth.cols, depth.depth.rows};
+    const Pinhole<double> p = network_.output_pinhole();
+    const Camera<double> seen{
+        {p.fx * factor, p.fy * factor, (p.cx + 0.5) * factor - 0.5, (p.cy + 0.5) * factor - 0.5},
+        {},
+        depth.depth.cols,
+        depth.depth.rows};
     depth_.options = options.depth;
     const NormalStatus answer = depth_.fill(depth, seen, field);
     report_.evidence.enough = field.size() > 0;

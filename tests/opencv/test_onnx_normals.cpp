@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Normals by a network: preprocessing, axes, mask, cameras, and the shipped model against a stored answer.
+#include <cmath>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "model_fixture.hpp"
+#include "sha256.hpp"
+#include "support/catch.hpp"
+
+using namespace sslam;
+using namespace sslam::test;
+
+namespace {
+
+// What the tiny model computes from a mean colour, red, green and blue in [-1, 1]: see fixtures.py.
+Vec3<double> tiny_answer(const Vec3<double>& rgb) {
+  Mat3<double> mix;
+  mix << 0.9, 0.1, -0.3, -0.2, 0.7, 0.4, 0.1, -0.1, 0.2;
+  return (mix * rgb + Vec3<double>(0.1, -0.1, -1.2)).normalized();
+}
+
+DenseNormals tiny_infer(const Changes& changes, const cv::Mat& image) {
+  const TemporaryFolder folder;
+  OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json", changes));
+  DenseNormals dense;
+  REQUIRE(source.infer(image, camera(image.cols, image.rows, 50), dense) == NormalStatus::kOk);
+  return dense;
+}
+
+NormalField fill(OnnxNormals& source, const cv::Mat& image, const Camera<double>& cam) {
+  ImageInput input;
+  input.image = image;
+  NormalField field;
+  REQUIRE(source.fill(input, cam, field) == NormalStatus::kOk);
+  return field;
+}
+
+}  // namespace
+
+TEST_CASE("a network's input and output go through the manifest", "[normals]") {
+  const cv::Mat image = coloured(64, 48);
+  const DenseNormals dense = tiny_infer({}, image);
+  REQUIRE(dense.normal.size() == cv::Size(16, 12));
+  for (int v = 0; v < 12; ++v) {
+    for (int u = 0; u < 16; ++u) {
+      const cv::Scalar mean = cv::mean(image(cv::Rect(4 * u, 4 * v, 4, 4)));
+      const Vec3<double> rgb = Vec3<double>(mean[2], mean[1], mean[0]) / 127.5 - Vec3<double>::Ones();
+      const Vec3<double> expected = tiny_answer(rgb);
+      const cv::Vec3f& n = dense.normal(v, u);
+      if (n == cv::Vec3f()) continue;
+      CHECK((Vec3<double>(n[0], n[1], n[2]) - expected).norm() < 1e-4);
+      CHECK(near(dense.planar(v, u), 1 / (1 + std::exp(-4 * rgb.y() - 1.5)), 1e-4));
+      CHECK(near(dense.confidence(v, u), 1 / (1 + std::exp(-2 * rgb.z() - 1.0)), 1e-4));
+    }
+  }
+}
+
+TEST_CASE("each broken step of preprocessing is seen in the answer", "[normals]") {
+  const cv::Mat image = coloured(64, 48);
+  const DenseNormals right = tiny_infer({}, image);
+  CHECK(difference_deg(right, tiny_infer({}, image)) < 1e-3);
+  CHECK(difference_deg(right, tiny_infer({{"\"rgb\"", "\"bgr\""}}, image)) > 10);
+  CHECK(difference_deg(right, tiny_infer({{"0.00784", "0.00984"}}, image)) > 1);
+  CHECK(difference_deg(right, tiny_infer({{"127.5", "0.5"}}, image)) > 10);
+  CHECK(difference_deg(right, tiny_infer({{"\"signs\": [\n      1", "\"signs\": [\n      -1"}}, image)) > 10);
+  CHECK(difference_deg(right, tiny_infer({{"\"x\",\n      \"y\"", "\"y\",\n      \"x\""}}, image)) > 10);
+}
+
+TEST_CASE("the weight is mask times confidence and the mask is a threshold", "[normals]") {
+  OnnxNormals source(fixtures() / "tiny_normals.onnx");
+  const cv::Mat image = coloured(64, 48);
+  const auto cam = camera(64, 48, 50);
+  const NormalField field = fill(source, image, cam);
+  CHECK(source.report().evidence.enough);
+  DenseNormals dense;
+  REQUIRE(source.infer(image, cam, dense) == NormalStatus::kOk);
+  std::size_t i = 0;
+  for (int v = 0; v < dense.normal.rows; ++v) {
+    for (int u = 0; u < dense.normal.cols; ++u) {
+      if (dense.planar(v, u) < 0.5 || dense.normal(v, u) == cv::Vec3f()) continue;
+      REQUIRE(i < field.size());
+      CHECK(near(field.weight[i], dense.planar(v, u) * dense.confidence(v, u)));
+      CHECK(field.x[i] == dense.normal(v, u)[0]);
+      ++i;
+    }
+  }
+  CHECK(i == field.size());
+  CHECK(near(source.report().evidence.planar_share, i / 192.0));
+}
+
+TEST_CASE("grey and BGRA images are taken as well", "[normals]") {
+  OnnxNormals source(fixtures() / "tiny_normals.json");
+  const cv::Mat grey(48, 64, CV_8UC1, cv::Scalar(200)), bgra(48, 64, CV_8UC4, cv::Scalar(200, 200, 200, 0));
+  const auto cam = camera(64, 48, 50);
+  CHECK(fill(source, grey, cam).x == fill(source, bgra, cam).x);
+}
+
+TEST_CASE("bad images are refused and leave nothing", "[normals]") {
+  OnnxNormals source(fixtures() / "tiny_normals.json");
+  NormalField field;
+  field.push_back(0, 0, -1, 1);
+  ImageInput input;
+  CHECK(source.fill(input, camera(64, 48, 50), field) == NormalStatus::kNoInput);
+  CHECK(field.size() == 0);
+  input.image = coloured(64, 48);
+  CHECK(source.fill(input, camera(63, 48, 50), field) == NormalStatus::kWrongSize);
+  input.image.convertTo(input.image, CV_16U);
+  CHECK(source.fill(input, camera(64, 48, 50), field) == NormalStatus::kWrongType);
+  input.image = coloured(20, 15);
+  CHECK(source.fill(input, camera(20, 15, 16), field) == NormalStatus::kWrongSize);
+}
+
+TEST_CASE("an empty mask is no Manhattan evidence", "[normals]") {
+  OnnxNormals source(fixtures() / "tiny_normals.json");
+  const cv::Mat magenta(48, 64, CV_8UC3, cv::Scalar(255, 0, 255));  // no green: not planar
+  CHECK(fill(source, magenta, camera(64, 48, 50)).size() == 0);
+  CHECK_FALSE(source.report().evidence.enough);
+  CHECK(source.report().evidence.planar_share == 0);
+}
+
+TEST_CASE("normals that contradict each other are no Manhattan evidence", "[normals]") {
+  OnnxNormals source(fixtures() / "tiny_normals.json");
+  cv::Mat_<cv::Vec3b> chess(48, 64);
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 64; ++u)
+      chess(v, u) = (u / 4 + v / 4) % 2 == 0 ? cv::Vec3b(0, 255, 255) : cv::Vec3b(255, 255, 0);
+  CHECK(fill(source, chess, camera(64, 48, 50)).size() == 0);
+  CHECK_FALSE(source.report().evidence.enough);
+  CHECK(source.report().evidence.planar_share > 0.5);
+  CHECK(source.report().evidence.agreement < 0.1);
+}
+
+TEST_CASE("an image of another camera is brought to the network's camera", "[normals]") {
+  const TemporaryFolder folder;
+  OnnxNormals source(
+      changed(folder, fixtures() / "tiny_normals.json", {{"\"channels\"", "\"focal\": 50, \"channels\""}}));
+  DenseNormals same, wide;
+  REQUIRE(source.infer(coloured(64, 48), camera(64, 48, 50), same) == NormalStatus::kOk);
+  // Twice the pixels and the same view; then a view so narrow that the network's border shows nothing real.
+  REQUIRE(source.infer(coloured(128, 96), camera(128, 96, 100), wide) == NormalStatus::kOk);
+  CHECK(difference_deg(same, wide) < 2);
+  CHECK(near(wide.pinhole.fx, 12.5));
+  REQUIRE(source.infer(coloured(64, 48), camera(64, 48, 100), wide) == NormalStatus::kOk);
+  CHECK(wide.normal(0, 0) == cv::Vec3f());
+  CHECK(wide.normal(6, 8) != cv::Vec3f());
+}
+
+TEST_CASE("lens distortion is taken out before the network", "[normals]") {
+  OnnxNormals source(fixtures() / "tiny_normals.json");
+  Camera<double> cam = camera(64, 48, 50);
+  DenseNormals straight, bent;
+  REQUIRE(source.infer(coloured(64, 48), cam, straight) == NormalStatus::kOk);
+  cam.distortion.k1 = -0.2;
+  REQUIRE(source.infer(coloured(64, 48), cam, bent) == NormalStatus::kOk);
+  CHECK(difference_deg(straight, bent) > 0.5);
+}
+
+TEST_CASE("a depth output becomes normals", "[normals]") {
+  // The tiny model's depth is 2 b + 1 for blue in [-1, 1]: a flat grey image is a wall across the view.
+  for (const std::string kind : {"depth", "inverse_depth"}) {
+    const TemporaryFolder folder;
+    OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
+                               {{"\"normals\"", "\"" + kind + "\""},
+                                {"\"name\": \"normal\"", "\"name\": \"depth\""},
+                                {"\"axes\"", "\"scale\": 0.9 } } #"}}));
+    const NormalField field =
+        fill(source, cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(128)), camera(640, 480, 520));
+    REQUIRE(field.size() > 0);
+    for (std::size_t i = 0; i < field.size(); ++i) CHECK(near(field.z[i], -1, 1e-3));
+  }
+}
