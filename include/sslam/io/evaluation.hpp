@@ -30,8 +30,8 @@ struct EvaluationOptions {
   Alignment alignment = Alignment::kSim3;
   double max_difference = kMaxStampDifference;  // between the stamps of a pair, in their unit
   double seconds_per_stamp = 1;                 // for deltas in seconds
-  std::vector<double> frame_stamps;  // of the images that could have been tracked; empty: not known
-  std::size_t frames = 0;            // their number, where only that is known; 0: not known
+  std::vector<double> frame_stamps{};  // of the images that could have been tracked; empty: not known
+  std::size_t frames = 0;              // their number, where only that is known; 0: not known
   std::vector<Delta> deltas{{1, DeltaUnit::kFrames}, {1, DeltaUnit::kSeconds}};
 };
 

@@ -58,7 +58,7 @@ struct View {
 }
 
 // 1, 2 or 5 times a power of ten, for about `wanted` steps over `extent`.
-[[nodiscard]] inline double tick_step(double extent, double wanted = 6) noexcept {
+[[nodiscard]] inline double tick_step(double extent, double wanted) noexcept {
   const double raw = extent / wanted;
   const double power = std::pow(10, std::floor(std::log10(raw)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -112,7 +112,7 @@ inline void draw_grid(std::ostream& out, const View& view, std::string_view unit
   const Vec2<double> middle((kLeft + kWidth - kRight) / 2, (kTop + kHeight - kBottom) / 2);
   const Vec2<double> half((kWidth - kLeft - kRight) / 2 / view.scale,
                           (kHeight - kTop - kBottom) / 2 / view.scale);
-  const double step = tick_step(2 * half.maxCoeff());
+  const double step = tick_step(2 * half.maxCoeff(), 9);
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step))));
   // Whole multiples of the step, so that zero prints as zero.
   const auto first = [step](double low) { return static_cast<long>(std::ceil(low / step)); };
