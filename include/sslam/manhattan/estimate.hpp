@@ -15,21 +15,28 @@ namespace sslam {
 // since the spread of the votes is measured in every frame. Angles in radians.
 template <Scalar S>
 struct ManhattanOptions {
-  S widest_kernel =
-      radians(S(7));  // first kernel width: a cone of 24 degrees, more than the error of a prediction
-  S narrowest_kernel = radians(S(2));  // last kernel width on clean normals: a cone of 7 degrees
-  S kernel_per_scatter = S(1.2);       // kernel width in units of the measured scatter of the votes
-  S normal_correlation =
-      S(0.05);  // errors of one plane's normals have this much in common: N count as 1 / 0.05
-  S normal_floor =
-      radians(S(0.3));           // standard deviation of a plane's direction that no number of votes removes
-  S min_normal_share = S(0.05);  // an axis is seen by normals that make up this share of all
-  S line_floor = radians(S(0.15));  // how well real edges keep to their axis: added to each segment's sigma
-  S widest_line_gate = radians(S(4));  // added to each segment's sigma at first, halved in every round
-  S min_line_gain = S(8);  // an axis is seen by lines that are exp(8) times likelier with it than by chance
-  S max_deviation = radians(S(3));  // every rotation is observed, by votes alone, to this standard deviation
+  // Normals. Kernel widths are those of a Gaussian: 7 degrees mean a cone of 24, more than a prediction is
+  // off, and 2 degrees a cone of 7. In between the width follows the measured scatter of the votes.
+  S widest_kernel = radians(S(7));
+  S narrowest_kernel = radians(S(2));
+  S kernel_per_scatter = S(1.5);
+  S min_normal_share = S(0.05);  // of all normals, for an axis to be seen by them
+  // How sure a plane's direction is: errors of its normals share this part of their variance, so that N of
+  // them count as 1 / 0.5 at most, and no number of votes removes the floor.
+  S normal_correlation = S(0.5);
+  S normal_floor = radians(S(0.3));
+  S normal_votes = 40;           // against segments, all normals of a view count as so many independent votes
+  std::size_t coarse_every = 8;  // while the kernel narrows, one block of normals in so many is read
+
+  // Segments. The floor says how well real edges keep to their axis; the gate is there at first and halves in
+  // every round. Both add to each segment's sigma.
+  S line_floor = radians(S(0.15));
+  S widest_line_gate = radians(S(4));
+  S min_line_gain = S(8);  // for an axis to be seen by them: log-likelihood with it over that without
+
+  // The frame.
+  S max_deviation = radians(S(5));  // standard deviation, by votes alone, up to which a rotation is observed
   S max_jump = radians(S(45));      // a turn from the prior by more than this is a flip, not a motion
-  std::size_t coarse_every = 8;     // while the kernel narrows, one block of normals in so many is read
 };
 
 // The predicted rotation, and how far it may be off: the covariance of its left perturbation, camera frame,
@@ -42,20 +49,20 @@ struct ManhattanPrior {
 
 template <Scalar S>
 struct AxisSupport {
-  bool seen = false;     // by normals or by lines
+  bool seen = false;  // its direction is known to max_deviation from its own votes
+  bool by_normals = false;
+  bool by_lines = false;
   S normal_share = 0;    // share of all normals that belong to this axis, without the clutter under its cone
   S normal_scatter = 0;  // standard deviation of those normals about their mode, per component, radians
-  Vec2<S> mode =
-      Vec2<S>::Zero();  // where the normals' mode lies off the final axis k, along axes k+1 and k+2, radians
-  S lines = 0;          // number of segments, each counted by its probability to belong to this axis
-  S line_gain = 0;      // log-likelihood of the segments with this axis over that without it
+  Vec2<S> mode = Vec2<S>::Zero();  // the normals' mode off axis k, along axes k+1 and k+2, radians
+  S lines = 0;      // number of segments, each counted by its probability to belong to this axis
+  S line_gain = 0;  // log-likelihood of the segments with this axis over that without it
 };
 
 template <Scalar S>
 struct ManhattanEstimate {
   Status status = Status::kTooFew;
-  SO3<S> cam_from_manhattan;  // the columns are the axes in the camera frame; the prior where the status says
-                              // failure
+  SO3<S> cam_from_manhattan;             // columns: the axes in the camera frame
   Mat3<S> covariance = Mat3<S>::Zero();  // of the left perturbation, camera frame, rad^2, prior included
   int axes_seen = 0;
   std::array<AxisSupport<S>, 3> axes{};

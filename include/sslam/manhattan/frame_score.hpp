@@ -22,38 +22,39 @@ struct FrameScore {
 // averaged over the normals and multiplied by `votes`, the number of independent directions they are taken
 // for. Over directions spread evenly, exp of one vote's score has mean 1, so exp(score) bounds the odds of
 // chance (Markov).
-template <Scalar S>
-[[nodiscard]] FrameScore<S> score_normals(const DirectionView<S>& normals, const Mat3<S>& cam_from_axes,
-                                          S width, S votes) noexcept {
-  constexpr S kShare = S(0.2);  // of each axis; the rest is clutter
-  constexpr S kClutter = S(0.4);
-  using Lanes = detail::DirectionLanes<S>;
+template <Scalar S, Scalar V>
+[[nodiscard]] FrameScore<S> score_normals(const DirectionView<V>& normals, const Mat3<S>& cam_from_axes,
+                                          S width, S votes, std::size_t every = 1) noexcept {
+  constexpr V kShare = V(0.2);  // of each axis; the rest is clutter
+  constexpr V kClutter = V(0.4);
+  using Lanes = detail::DirectionLanes<V>;
   FrameScore<S> score;
   S weight = 0;
+  const Mat3<V> axes = cam_from_axes.template cast<V>();
   // Kernel mass over the plane is 12 pi h^2 / 5, over the half sphere 2 pi for clutter.
-  const S peak = kShare * S(5) / (S(6) * width * width);
-  const S inverse_cone = S(1) / squared_cone(width);
-  detail::DirectionBlock<S> block;
+  const V peak = kShare * static_cast<V>(S(5) / (S(6) * width * width));
+  const V inverse_cone = V(1) / static_cast<V>(squared_cone(width));
+  detail::DirectionBlock<V> block;
   block.weight.setOnes();
-  for (std::size_t first = 0; first < normals.size; first += detail::kDirectionBlock) {
+  const std::size_t step = detail::kDirectionBlock * std::max<std::size_t>(every, 1);
+  for (std::size_t first = 0; first < normals.size; first += step) {
     detail::load_directions(normals, first, block);
     const Lanes valid = block.x.square() + block.y.square() + block.z.square();
     std::array<Lanes, 3> part;
     Lanes sum = Lanes::Constant(kClutter);
     for (int k = 0; k < 3; ++k) {
-      const Lanes along =
-          cam_from_axes(0, k) * block.x + cam_from_axes(1, k) * block.y + cam_from_axes(2, k) * block.z;
+      const Lanes along = axes(0, k) * block.x + axes(1, k) * block.y + axes(2, k) * block.z;
       Lanes& density = part[static_cast<std::size_t>(k)];
-      density = (S(1) - (valid - along.square()) * inverse_cone).max(S(0)).square();
+      density = (V(1) - (valid - along.square()) * inverse_cone).max(V(0)).square();
       density = peak * density.square();
       sum += density;
     }
     const Lanes votes_here = block.weight * valid;
-    weight += votes_here.sum();
+    weight += static_cast<S>(votes_here.sum());
     const Lanes logs = sum.log();
-    score.total += (votes_here * logs).sum();
+    score.total += static_cast<S>((votes_here * logs).sum());
     for (std::size_t k = 0; k < 3; ++k)
-      score.gain[k] += (votes_here * (logs - (sum - part[k] + kShare).log())).sum();
+      score.gain[k] += static_cast<S>((votes_here * (logs - (sum - part[k] + kShare).log())).sum());
   }
   const S scale = weight > S(0) ? votes / weight : S(0);
   score.total *= scale;

@@ -48,7 +48,7 @@ template <Scalar S>
 // prior.
 template <Scalar S>
 [[nodiscard]] bool joint_step(const FrameMoments<S>& moments, S width, S total,
-                              const Mat3<S>& axes_from_prior, Mat3<S>& step) noexcept {
+                              const Mat3<S>& axes_from_prior, SO3<S>& step) noexcept {
   constexpr S kPriorShare = S(0.005);
   Mat3<S> sum = kPriorShare * axes_from_prior;
   for (int k = 0; k < 3; ++k) {
@@ -121,13 +121,12 @@ template <Scalar S, Scalar V>
     moments = frame_moments<S>(normals, found.cam_from_axes.matrix(), found.width, fine ? 1 : every);
     if (round + 1 == kCoarseRounds + kFineRounds) break;
     const Mat3<S> axes_from_prior = (found.cam_from_axes.inverse() * start).matrix();
-    Mat3<S> step;
+    SO3<S> step;
     if (!detail::joint_step(moments, found.width, weight, axes_from_prior, step)) break;
-    const SO3<S> turn = SO3<S>::from_matrix(step);
-    found.cam_from_axes = found.cam_from_axes * turn;
+    found.cam_from_axes = found.cam_from_axes * step;
     if (fine) continue;
     const S narrower = detail::next_width(moments, found.width, weight, options);
-    const bool settled = narrower > S(0.97) * found.width && turn.log().norm() < S(0.02) * found.width;
+    const bool settled = narrower > S(0.97) * found.width && step.log().norm() < S(0.02) * found.width;
     found.width = narrower;
     if (settled) round = kCoarseRounds - 1;
   }

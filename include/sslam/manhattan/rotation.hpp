@@ -10,6 +10,7 @@
 #include "sslam/manhattan/cube.hpp"
 #include "sslam/manhattan/line_circles.hpp"
 #include "sslam/manhattan/normal_modes.hpp"
+#include "sslam/manhattan/turned_start.hpp"
 
 namespace sslam {
 
@@ -69,7 +70,8 @@ class FrameRefiner {
         prior_information_(prior_information),
         options_(options) {}
 
-  [[nodiscard]] ManhattanEstimate<S> run() noexcept {
+  // `shares` gets the final shares of the segments.
+  [[nodiscard]] ManhattanEstimate<S> run(LineShares<S>& shares) noexcept {
     constexpr int kMostRounds = 16;
     constexpr S kStill = S(2e-5);
     rotation_ = modes_.cam_from_axes;
@@ -82,20 +84,20 @@ class FrameRefiner {
       gate = gate > S(0.3) * options_.line_floor ? gate / S(2) : S(0);
     }
     (void)step(S(0));
+    shares = shares_;
     return describe();
   }
 
-  // After run(): see assign_lines.
-  void assign(const ManhattanEstimate<S>& estimate, std::span<std::int8_t> axis_of) const noexcept {
-    std::array<bool, 3> named{};
-    for (std::size_t k = 0; k < 3; ++k) named[k] = estimate.axes[k].line_gain >= options_.min_line_gain;
-    assign_lines(lines_, estimate.cam_from_manhattan.matrix(), shares_, options_.line_floor, named, axis_of);
+ private:
+  // Segments speak for an axis when they are likelier with it than by chance, and when their planes meet in
+  // it: pieces of one image line lie in one plane, through which a free axis can always be turned.
+  [[nodiscard]] bool by_lines(std::size_t k) const noexcept {
+    return round_.gain[k] >= options_.min_line_gain &&
+           (modes_.modes[k].seen || weakest(round_.systems[k].H) >= enough());
   }
 
- private:
-  [[nodiscard]] bool by_lines(std::size_t k) const noexcept {
-    return round_.gain[k] >= options_.min_line_gain;
-  }
+  // Information that makes max_deviation, 1 / rad^2.
+  [[nodiscard]] S enough() const noexcept { return S(1) / (options_.max_deviation * options_.max_deviation); }
 
   // Linearises about rotation_ and returns the turn psi. While the gate is open every axis may pull: which
   // ones deserve it shows only at the end.
@@ -126,19 +128,20 @@ class FrameRefiner {
     estimate.cam_from_manhattan = rotation_;
     const Mat3<S> axes = rotation_.matrix();
     estimate.covariance = axes * posterior_.ldlt().solve(Mat3<S>::Identity().eval()) * axes.transpose();
-    const S information = S(1) / (options_.max_deviation * options_.max_deviation);
     S squared = 0;
     S count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       AxisSupport<S>& axis = estimate.axes[k];
       axis.normal_share = modes_.modes[k].share;
       axis.normal_scatter = modes_.modes[k].scatter;
-      if (modes_.modes[k].seen) axis.mode = offsets_[k];
+      axis.by_normals = modes_.modes[k].seen;
+      if (axis.by_normals) axis.mode = offsets_[k];
+      axis.by_lines = by_lines(k);
       axis.lines = round_.count[k];
       axis.line_gain = round_.gain[k];
-      axis.seen = weakest(own_[k].H) >= information;
+      axis.seen = weakest(own_[k].H) >= enough();
       estimate.axes_seen += axis.seen ? 1 : 0;
-      if (!by_lines(k)) continue;
+      if (!axis.by_lines) continue;
       squared += round_.squared[k];
       count += round_.count[k];
     }
@@ -149,7 +152,7 @@ class FrameRefiner {
     estimate.deviation = S(1) / std::sqrt(std::max(least, S(0.1)));
     estimate.log_likelihood = round_.log_likelihood;
     estimate.status = estimate.axes_seen == 0 ? Status::kNoConsensus
-                      : least < information   ? Status::kDegenerate
+                      : least < enough()      ? Status::kDegenerate
                                               : Status::kOk;
     return estimate;
   }
@@ -167,6 +170,14 @@ class FrameRefiner {
   FramePull<S> votes_;
   Mat3<S> posterior_ = Mat3<S>::Identity();
 };
+
+template <Scalar S>
+void assign_lines_of(const ManhattanEstimate<S>& estimate, std::span<const LineVote<S>> lines,
+                     const LineShares<S>& shares, S floor, std::span<std::int8_t> axis_of) noexcept {
+  std::array<bool, 3> named{};
+  for (std::size_t k = 0; k < 3; ++k) named[k] = estimate.axes[k].by_lines;
+  assign_lines(lines, estimate.cam_from_manhattan.matrix(), shares, floor, named, axis_of);
+}
 
 template <Scalar S>
 [[nodiscard]] bool all_finite(std::span<const LineVote<S>> lines) noexcept {
@@ -209,18 +220,30 @@ template <Scalar S, Scalar V = S>
     return detail::refusal(Status::kNotFinite, ManhattanPrior<S>{});
   }
   if (!(total > S(0)) && lines.empty()) return detail::refusal(Status::kTooFew, prior);
-  NormalModes<S> modes;
-  modes.cam_from_axes = prior.cam_from_manhattan;
-  if (total > S(0)) modes = find_normal_modes(normals, total, prior.cam_from_manhattan, options);
   const Mat3<S> information = prior.covariance.ldlt().solve(Mat3<S>::Identity().eval());
   if (!information.allFinite()) return detail::refusal(Status::kNotFinite, prior);
-  detail::FrameRefiner<S> refiner(modes, lines, prior, information, options);
-  ManhattanEstimate<S> estimate = refiner.run();
+  const auto climb = [&](const SO3<S>& start, LineShares<S>& shares) {
+    NormalModes<S> modes;
+    modes.cam_from_axes = start;
+    if (total > S(0)) modes = find_normal_modes(normals, total, start, options);
+    return detail::FrameRefiner<S>(modes, lines, prior, information, options).run(shares);
+  };
+  LineShares<S> shares;
+  ManhattanEstimate<S> estimate = climb(prior.cam_from_manhattan, shares);
+  if (!usable(estimate.status)) {
+    LineShares<S> other_shares;
+    const SO3<S> start = best_turned_start(normals, lines, estimate, prior, information, options);
+    const ManhattanEstimate<S> other = climb(start, other_shares);
+    if (other.axes_seen > estimate.axes_seen) {
+      estimate = other;
+      shares = other_shares;
+    }
+  }
   if (estimate.status == Status::kNoConsensus) return detail::refusal(Status::kNoConsensus, prior);
   if (angle_between(estimate.cam_from_manhattan, prior.cam_from_manhattan) > options.max_jump) {
     return detail::refusal(Status::kNoConsensus, prior);
   }
-  refiner.assign(estimate, axis_of);
+  detail::assign_lines_of(estimate, lines, shares, options.line_floor, axis_of);
   return estimate;
 }
 

@@ -18,7 +18,6 @@ struct SearchOptions {
   S rank_line_floor = radians(S(1));  // added to the segments' sigma meanwhile
   S distinct = radians(S(6));         // frames closer than this (over the 24 namings) are the same
   int triples = 600;                  // random triples of segments
-  S normal_votes = 40;                // independent directions that all normals together are taken for
   S min_log_likelihood = 20;          // of an accepted frame over no structure: see find_manhattan
   S min_axis_gain = 8;                // the same, of an axis over none in its place; two axes must have it
   S max_ambiguity = S(0.9);           // an accepted frame is this much better than the next one that differs
@@ -76,7 +75,7 @@ template <Scalar S, std::size_t Capacity>
 // segments.
 template <Scalar S>
 [[nodiscard]] FrameScore<S> score_estimate(const ManhattanEstimate<S>& estimate, const NormalView<S>& normals,
-                                           const ManhattanOptions<S>& options, S votes) noexcept {
+                                           const ManhattanOptions<S>& options) noexcept {
   S scatter = 0;
   S share = 0;
   for (const AxisSupport<S>& axis : estimate.axes) {
@@ -85,7 +84,8 @@ template <Scalar S>
   }
   const S wanted = share > S(0) ? options.kernel_per_scatter * scatter / share : options.widest_kernel;
   const S width = std::clamp(wanted, options.narrowest_kernel, options.widest_kernel);
-  FrameScore<S> score = score_normals(normals, estimate.cam_from_manhattan.matrix(), width, votes);
+  FrameScore<S> score =
+      score_normals(normals, estimate.cam_from_manhattan.matrix(), width, options.normal_votes);
   score.total += estimate.log_likelihood;
   for (std::size_t k = 0; k < 3; ++k) score.gain[k] += estimate.axes[k].line_gain;
   return score;
@@ -109,7 +109,7 @@ template <Scalar S, Scalar V, std::size_t Capacity>
   }
   const ManhattanPrior<S> start{closest_naming(refined[best].frame, SO3<S>())};
   ManhattanEstimate<S> estimate = track_manhattan<S, V>(normals, lines, start, options.rotation, axis_of);
-  const FrameScore<S> score = score_estimate(estimate, sample, options.rotation, options.normal_votes);
+  const FrameScore<S> score = score_estimate(estimate, sample, options.rotation);
   estimate.log_likelihood = score.total;
   estimate.ambiguity = score.total > S(0) ? second / score.total : S(1);
   if (!usable(estimate.status)) return estimate;
@@ -153,8 +153,9 @@ template <Scalar S, Scalar V = S>
   CandidateList<S, kRefined> candidates(options.distinct);
   propose_frames<S>(peaks, sharp, options.triples, random, [&](const SO3<S>& frame) {
     const Mat3<S> axes = frame.matrix();
-    const S score = score_normals(sample.thinned(4), axes, options.rank_width, options.normal_votes).total +
-                    score_lines<S>(sharp, axes, options.rank_line_floor);
+    const S score =
+        score_normals(sample.thinned(4), axes, options.rank_width, options.rotation.normal_votes).total +
+        score_lines<S>(sharp, axes, options.rank_line_floor);
     candidates.offer(frame, score);
   });
 
@@ -163,9 +164,8 @@ template <Scalar S, Scalar V = S>
     const ManhattanPrior<S> start{candidates[i].frame};
     const ManhattanEstimate<S> estimate =
         track_manhattan<S, S>(sample.view(), lines, start, options.rotation);
-    refined.offer(
-        estimate.cam_from_manhattan,
-        detail::score_estimate(estimate, sample.view(), options.rotation, options.normal_votes).total);
+    refined.offer(estimate.cam_from_manhattan,
+                  detail::score_estimate(estimate, sample.view(), options.rotation).total);
   }
   return detail::accept_best<S, V>(normals, sample.view(), lines, refined, options, axis_of);
 }
