@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A line from two or more views with known poses: meeting of the interpretation planes, then
+// Levenberg-Marquardt on the distances of the observed ends, with all four degrees of freedom or along a
+// known direction.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "sslam/core/status.hpp"
+#include "sslam/solver/levenberg_marquardt.hpp"
+#include "sslam/solver/line_view.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct LineTriangulationOptions {
+  S min_parallax = radians(S(2));  // largest angle between two interpretation planes: less is kLowParallax
+  S max_relative_sigma = S(0.2);   // uncertainty of the line's place over its distance: more is kLowParallax
+  S max_error = S(3);              // distance of an observed end from the projected line, standard deviations
+  S min_depth = S(1e-4);           // along z of the seen ends in each view, units of the map
+  S max_stretch = 30;              // length over distance from the nearest camera: more is kDegenerate
+  LmOptions solver;
+};
+
+template <Scalar S>
+struct LineTriangulation {
+  Status status = Status::kTooFew;
+  Line3<S> line;                    // world
+  Vec3<S> start = Vec3<S>::Zero();  // world, on the line: the ends of all that the views show of it
+  Vec3<S> end = Vec3<S>::Zero();
+  Mat3<S> covariance = Mat3<S>::Zero();  // of the middle of that stretch, across the line (rank 2)
+  S parallax = 0;                        // largest angle between two interpretation planes, rad
+  S max_error = 0;                       // largest distance of an observed end, standard deviations
+  S overlap = 0;  // what all views show, over the shortest stretch that one of them shows
+};
+
+namespace detail {
+
+// A line of known direction: two degrees of freedom, its place across the direction.
+template <Scalar S>
+struct ParallelLine {
+  using ScalarType = S;
+  static constexpr int kDof = 2;
+  Vec3<S> direction;
+  Mat<S, 3, 2> basis;  // across the direction
+  Vec2<S> place;
+
+  [[nodiscard]] ParallelLine retract(const Vec2<S>& delta) const noexcept {
+    return {direction, basis, place + delta};
+  }
+  [[nodiscard]] Line3<S> line() const noexcept { return {(basis * place).cross(direction), direction}; }
+};
+
+template <Scalar S>
+[[nodiscard]] const Line3<S>& line_of(const Line3<S>& line) noexcept {
+  return line;
+}
+template <Scalar S>
+[[nodiscard]] Line3<S> line_of(const ParallelLine<S>& line) noexcept {
+  return line.line();
+}
+template <Scalar S>
+[[nodiscard]] Mat<S, 2, 4> jacobian(const LineReprojection<S>& r, const SE3<S>& cam,
+                                    const Line3<S>& line) noexcept {
+  return r.wrt_line(cam, line);
+}
+template <Scalar S>
+[[nodiscard]] Mat2<S> jacobian(const LineReprojection<S>& r, const SE3<S>& cam,
+                               const ParallelLine<S>& line) noexcept {
+  return -r.wrt_moment * cam.rotation.matrix() * hat(line.direction) * line.basis;
+}
+
+// Squared distances of the observed ends from the projected line, in variances.
+template <Scalar S>
+struct LineProblem {
+  std::span<const LineView<S>> views;
+  Vec3<S> origin;
+
+  template <class Line>
+  [[nodiscard]] Evaluated<S> operator()(const Line& line,
+                                        NormalEquations<S, Line::kDof>* equations) const noexcept {
+    Evaluated<S> sum;
+    LineReprojection<S> r;
+    for (const LineView<S>& view : views) {
+      const SE3<S> cam = LineGeometry<S>(view, origin).camera_from_origin();
+      if (!line_reprojection(Pinhole<S>{}, cam, line_of(line), view.segment, r)) continue;
+      const S weight = 1 / (view.sigma * view.sigma);
+      sum.cost += weight * r.error.squaredNorm();
+      sum.count += 2;
+      if (!equations) continue;
+      const Mat<S, 2, Line::kDof> j = jacobian(r, cam, line);
+      for (int i = 0; i < 2; ++i) equations->add(j.row(i), r.error[i], weight);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] S largest_error(const Line3<S>& line) const noexcept {
+    S worst = 0;
+    LineReprojection<S> r;
+    for (const LineView<S>& view : views) {
+      const SE3<S> cam = LineGeometry<S>(view, origin).camera_from_origin();
+      if (!line_reprojection(Pinhole<S>{}, cam, line, view.segment, r)) return std::numeric_limits<S>::max();
+      worst = std::max(worst, r.error.template lpNorm<Eigen::Infinity>() / view.sigma);
+    }
+    return worst;
+  }
+};
+
+// Largest angle between two planes; normal(view) gives their normals.
+template <Scalar S, class Normal>
+[[nodiscard]] S plane_parallax(std::span<const LineView<S>> views, Normal normal) noexcept {
+  S sine = 0;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t j = i + 1; j < views.size(); ++j)
+      sine = std::max(sine, normal(views[i]).cross(normal(views[j])).norm());
+  return std::asin(std::min(sine, S(1)));
+}
+
+// The point across `basis` that is nearest to all planes: sum of (n . (X - c))^2 is least.
+template <Scalar S, class Normal>
+[[nodiscard]] bool place_across(std::span<const LineView<S>> views, const Vec3<S>& origin,
+                                const Mat<S, 3, 2>& basis, Normal normal, Vec2<S>& place) noexcept {
+  Mat2<S> a = Mat2<S>::Zero();
+  Vec2<S> b = Vec2<S>::Zero();
+  for (const LineView<S>& view : views) {
+    const Vec3<S> n = normal(view);
+    const Vec2<S> row = basis.transpose() * n;
+    a += row * row.transpose();
+    b += row * n.dot(LineGeometry<S>(view, origin).centre);
+  }
+  const Eigen::LLT<Mat2<S>> factor(a);
+  if (factor.info() != Eigen::Success) return false;
+  place = factor.solve(b);
+  return place.allFinite();
+}
+
+// Trims the line to what the views show of it, and checks that they can. `line` is relative to the origin.
+template <Scalar S>
+[[nodiscard]] Status trim(std::span<const LineView<S>> views, const Vec3<S>& origin, const Line3<S>& line,
+                          const LineTriangulationOptions<S>& options, LineTriangulation<S>& result) noexcept {
+  constexpr S kFar = std::numeric_limits<S>::max();
+  S low = kFar, high = -kFar, common_low = -kFar, common_high = kFar, shortest = kFar, distance = kFar;
+  for (const LineView<S>& view : views) {
+    const LineGeometry<S> geometry(view, origin);
+    const LineStretch<S> stretch = seen_stretch(geometry, line, options.min_depth);
+    if (!stretch.in_front) return Status::kBehind;
+    if (!stretch.bounded) return Status::kDegenerate;
+    low = std::min(low, stretch.low);
+    high = std::max(high, stretch.high);
+    common_low = std::max(common_low, stretch.low);
+    common_high = std::min(common_high, stretch.high);
+    shortest = std::min(shortest, stretch.high - stretch.low);
+    distance = std::min(distance, (line.point_closest_to(geometry.centre) - geometry.centre).norm());
+  }
+  if (!(high - low < options.max_stretch * distance) || !(shortest > 0)) return Status::kDegenerate;
+  const Vec3<S> foot = line.closest_point_to_origin() + origin;
+  result.start = foot + low * line.direction;
+  result.end = foot + high * line.direction;
+  result.overlap = std::max(common_high - common_low, S(0)) / shortest;
+  return Status::kOk;
+}
+
+// How a point at `middle` moves across the line with the degrees of freedom of the minimisation.
+template <Scalar S>
+[[nodiscard]] Mat<S, 3, 4> across_jacobian(const Line3<S>& line, const Vec3<S>& middle) noexcept {
+  const Mat<S, 6, 4> j = line.retract_jacobian();
+  return hat(line.direction) * (j.template topRows<3>() - hat(middle) * j.template bottomRows<3>());
+}
+template <Scalar S>
+[[nodiscard]] Mat<S, 3, 2> across_jacobian(const ParallelLine<S>& line, const Vec3<S>&) noexcept {
+  return line.basis;
+}
+
+// From a start to the result: minimise, check, trim, judge the uncertainty.
+template <Scalar S, class Line>
+[[nodiscard]] Status finish(std::span<const LineView<S>> views, const Vec3<S>& origin, Line line,
+                            const LineTriangulationOptions<S>& options,
+                            LineTriangulation<S>& result) noexcept {
+  constexpr int D = Line::kDof;
+  const LineProblem<S> problem{views, origin};
+  const LmSummary<S, D> summary = minimize(problem, line, options.solver);
+  if (summary.status != Status::kOk && summary.status != Status::kNotConverged) return Status::kDegenerate;
+  const Line3<S> found = line_of(line);
+  result.max_error = problem.largest_error(found);
+  const Status trimmed = trim(views, origin, found, options, result);
+  if (trimmed != Status::kOk) return trimmed;
+  result.line = {found.moment + origin.cross(found.direction), found.direction};
+  const Vec3<S> middle = (result.start + result.end) / 2 - origin;
+  const Eigen::LLT<Mat<S, D, D>> factor(summary.information);
+  if (factor.info() != Eigen::Success) return Status::kLowParallax;
+  const Mat<S, 3, D> j = across_jacobian(line, middle);
+  result.covariance = j * factor.solve(j.transpose());
+  const S distance = (middle - LineGeometry<S>(views[0], origin).centre).norm();
+  if (!(result.covariance.trace() < std::pow(options.max_relative_sigma * distance, 2)))
+    return Status::kLowParallax;
+  return result.max_error > options.max_error ? Status::kNoConsensus : Status::kOk;
+}
+
+template <Scalar S>
+[[nodiscard]] Status check(std::span<const LineView<S>> views) noexcept {
+  for (const LineView<S>& view : views)
+    if (!is_finite(view)) return Status::kNotFinite;
+  if (views.size() < 2) return Status::kTooFew;
+  for (const LineView<S>& view : views)
+    if (!(view.segment.length() > view.sigma)) return Status::kDegenerate;
+  return Status::kOk;
+}
+
+}  // namespace detail
+
+// min over the line of  sum dist(end_i, proj_i(line))^2 / sigma_i^2  (Bartoli and Sturm, CVIU 2005). A line
+// in or near an epipolar plane has parallel interpretation planes: kLowParallax.
+template <Scalar S>
+[[nodiscard]] LineTriangulation<S> triangulate_line(
+    std::span<const LineView<S>> views, const LineTriangulationOptions<S>& options = {}) noexcept {
+  LineTriangulation<S> result;
+  result.status = detail::check(views);
+  if (!usable(result.status)) return result;
+  const Vec3<S> origin = LineGeometry<S>(views[0], Vec3<S>::Zero()).centre;
+  const auto normal = [&](const LineView<S>& view) { return LineGeometry<S>(view, origin).normal(); };
+  result.parallax = detail::plane_parallax(views, normal);
+  result.status = Status::kLowParallax;
+  if (result.parallax < options.min_parallax) return result;
+
+  Mat3<S> normals = Mat3<S>::Zero();
+  for (const LineView<S>& view : views) normals += normal(view) * normal(view).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(normals);
+  const Vec3<S> direction = eigen.eigenvectors().col(0);
+  const Mat<S, 3, 2> basis = tangent_basis(direction);
+  Vec2<S> place;
+  if (!detail::place_across(views, origin, basis, normal, place)) return result;
+  const Vec3<S> foot = basis * place;
+  result.status = detail::finish(views, origin, Line3<S>{foot.cross(direction), direction}, options, result);
+  return result;
+}
+
+// The same along a known unit direction in the world, such as a Manhattan axis: with two unknowns instead of
+// four the tilt of a short segment does no harm, and half of the parallax does. kNoConsensus when a segment
+// does not follow it.
+template <Scalar S>
+[[nodiscard]] LineTriangulation<S> triangulate_line_along(
+    std::span<const LineView<S>> views, const Vec3<S>& direction_world,
+    const LineTriangulationOptions<S>& options = {}) noexcept {
+  LineTriangulation<S> result;
+  result.status = detail::check(views);
+  const S length = direction_world.norm();
+  if (!std::isfinite(length)) result.status = Status::kNotFinite;
+  if (!usable(result.status)) return result;
+  result.status = Status::kDegenerate;
+  if (!(length > 0)) return result;
+  const Vec3<S> direction = direction_world / length;
+  const Vec3<S> origin = LineGeometry<S>(views[0], Vec3<S>::Zero()).centre;
+  const auto normal = [&](const LineView<S>& view) {
+    return LineGeometry<S>(view, origin).normal_along(direction);
+  };
+  result.parallax = detail::plane_parallax(views, normal);
+  result.status = Status::kLowParallax;
+  if (!(result.parallax >= options.min_parallax / 2)) return result;
+  const Mat<S, 3, 2> basis = tangent_basis(direction);
+  Vec2<S> place;
+  if (!detail::place_across(views, origin, basis, normal, place)) return result;
+  result.status =
+      detail::finish(views, origin, detail::ParallelLine<S>{direction, basis, place}, options, result);
+  return result;
+}
+
+}  // namespace sslam
