@@ -3,10 +3,10 @@
 #include <limits>
 #include <vector>
 
-#include "ceres/map_scene.hpp"
 #include "sslam/ceres/global_bundle_adjustment.hpp"
 #include "sslam/ceres/local_bundle_adjustment.hpp"
 #include "support/catch.hpp"
+#include "support/map_scene.hpp"
 
 namespace {
 
@@ -15,7 +15,6 @@ using sslam::testing::look;
 using sslam::testing::MapScene;
 using sslam::testing::MapSceneOptions;
 using sslam::testing::sweep;
-
 
 // Moves keyframes from `first` on, and every landmark, off their true places.
 void perturb(MapScene& scene, Map<double>& map, std::size_t first, double rotation, double distance) {

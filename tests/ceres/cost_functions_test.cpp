@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "ceres/map_scene.hpp"
 #include "ceres/numeric.hpp"
 #include "support/catch.hpp"
+#include "support/map_scene.hpp"
 
 namespace {
 

@@ -79,8 +79,8 @@ class CeresBundleSolver {
       Eigen::Map<Vec3<double>>(point_blocks_[i].data()) = graph.points[i].position;
     for (std::size_t i = 0; i < line_blocks_.size(); ++i)
       store_line(graph.lines[i].line, line_blocks_[i].data());
-    point_loss_ = std::make_unique<ceres::HuberLoss>(options.losses.point);
-    line_loss_ = std::make_unique<ceres::HuberLoss>(options.losses.line);
+    point_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.point);
+    line_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.line);
     rotation_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.rotation);
     axis_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.axis);
   }

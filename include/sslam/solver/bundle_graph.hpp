@@ -89,13 +89,15 @@ struct BundleGraph {
   }
 };
 
-// How far an observation may be off, in its own standard deviations, before it counts less.
+// Widths of the robust losses, Cauchy throughout: how many of its own standard deviations an observation may
+// be off before it begins to let go. At 3, clean data lose about 1 % of their accuracy, and one gross error
+// in ten costs 15 %.
 template <Scalar S>
 struct BundleLosses {
-  S point = S(2.4477);             // Huber; sqrt of the 95 % quantile of chi-square with 2 degrees of freedom
-  S line = S(2.4477);              // Huber, both endpoints together
-  S rotation = 2;                  // Cauchy: a wrong Manhattan frame lets go
-  S axis = 2;                      // Cauchy: a wrong assignment lets go
+  S point = 3;                     // both coordinates together
+  S line = 3;                      // both endpoints together
+  S rotation = 2;                  // a Manhattan frame that was the wrong one
+  S axis = 2;                      // a line that does not follow its axis
   S axis_sigma = radians(S(0.5));  // squareness of real walls and edges
   S scale_sigma = S(1e-3);         // of the held distance, as a part of it; it competes with nothing
 };
