@@ -2,8 +2,8 @@
 // The pinhole camera and its radial-tangential lens distortion (Brown 1966; the model of OpenCV).
 #pragma once
 
-#include <cmath>
 #include <concepts>
+#include <type_traits>
 
 #include "sslam/core/types.hpp"
 
@@ -45,28 +45,53 @@ template <Scalar S>
 struct RadTan {
   S k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
 
-  [[nodiscard]] bool is_identity() const noexcept { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
+  [[nodiscard]] bool is_identity() const noexcept {
+    return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0;
+  }
 
   [[nodiscard]] Vec2<S> distort(const Vec2<S>& m) const noexcept {
     const S x = m.x(), y = m.y(), r2 = m.squaredNorm();
     const S radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+    return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+            y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
   }
 
-  // Inverse of distort by fixed-point iteration; where it does not settle, beyond the lens's valid field, the last
-  // finite iterate.
-  [[nodiscard]] Vec2<S> undistort(const Vec2<S>& distorted) const noexcept {
-    if (is_identity()) return distorted;
-    constexpr int kIterations = 20;
-    Vec2<S> m = distorted;
+  // d distort / d m.
+  [[nodiscard]] Mat2<S> distort_jacobian(const Vec2<S>& m) const noexcept {
+    const S x = m.x(), y = m.y(), r2 = m.squaredNorm();
+    const S radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+    const S slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // of radial: its gradient is slope times m
+    Mat2<S> j;
+    j(0, 0) = radial + slope * x * x + 2 * p1 * y + 6 * p2 * x;
+    j(0, 1) = j(1, 0) = slope * x * y + 2 * p1 * x + 2 * p2 * y;
+    j(1, 1) = radial + slope * y * y + 6 * p1 * y + 2 * p2 * x;
+    return j;
+  }
+
+  // Inverse of distort by Newton's method. False where no point of the lens's valid field, in which the image
+  // grows with the scene, is seen at `distorted`; m is then the nearest the search came.
+  [[nodiscard]] bool undistort(const Vec2<S>& distorted, Vec2<S>& m) const noexcept {
+    m = distorted;
+    if (is_identity()) return true;
+    constexpr int kIterations = 30;
+    constexpr S kExact = std::is_same_v<S, float> ? S(1e-6) : S(1e-12);
+    Vec2<S> step = Vec2<S>::Zero();
     for (int i = 0; i < kIterations; ++i) {
-      const Vec2<S> next = m - (distort(m) - distorted);
-      if (!next.allFinite() || next.squaredNorm() > 100) break;
-      const bool settled = (next - m).squaredNorm() < S(1e-14);
-      m = next;
-      if (settled) break;
+      const Mat2<S> j = distort_jacobian(m);
+      const S determinant = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
+      if (determinant > 0 && j.trace() > 0) {
+        const Vec2<S> error = distort(m) - distorted;
+        if (error.cwiseAbs().maxCoeff() < kExact * (1 + distorted.norm())) return true;
+        step = Vec2<S>(j(1, 1) * error.x() - j(0, 1) * error.y(), j(0, 0) * error.y() - j(1, 0) * error.x()) /
+               determinant;
+        m -= step;
+      } else {
+        // Out of the valid field: half way back.
+        step /= 2;
+        m += step;
+      }
     }
-    return m;
+    return false;
   }
 };
 
@@ -76,10 +101,12 @@ struct Camera {
   RadTan<S> distortion;
   int width = 0, height = 0;  // pixels
 
-  // A pixel of the lens to the pixel of the ideal pinhole, and back.
+  // A pixel of the lens to the pixel of the ideal pinhole, and back. Beyond the lens's valid field, the
+  // nearest that RadTan::undistort comes.
   [[nodiscard]] Vec2<S> undistort_pixel(const Vec2<S>& pixel) const noexcept {
     if (distortion.is_identity()) return pixel;
-    const Vec2<S> m = distortion.undistort(pinhole.unproject(pixel).template head<2>());
+    Vec2<S> m;
+    (void)distortion.undistort(pinhole.unproject(pixel).template head<2>(), m);
     return pinhole.project({m.x(), m.y(), S(1)});
   }
   [[nodiscard]] Vec2<S> distort_pixel(const Vec2<S>& pixel) const noexcept {

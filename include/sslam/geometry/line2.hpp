@@ -2,9 +2,6 @@
 // Segments and lines in the image, and the plane that a segment spans with the camera centre.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "sslam/geometry/camera.hpp"
 
 namespace sslam {
@@ -33,7 +30,8 @@ template <Scalar S>
   return {n.x(), n.y(), -n.dot(p)};
 }
 
-// Unit normal, camera frame, of the plane through the camera centre and the segment.
+// Unit normal, camera frame, of the plane through the camera centre and the segment. Zero for a
+// segment without length.
 template <Scalar S>
 [[nodiscard]] Vec3<S> interpretation_plane(const Segment2<S>& segment, const Pinhole<S>& pinhole) noexcept {
   return pinhole.unproject(segment.start).cross(pinhole.unproject(segment.end)).normalized();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Infinite lines in space: Pluecker coordinates (moment, direction) with a minimal update of four degrees of freedom.
+// Infinite lines in space: Pluecker coordinates (moment, direction) with a minimal update of four degrees of
+// freedom.
 #pragma once
 
 #include <cmath>
@@ -16,7 +17,7 @@ struct Line3 {
   using Tangent = Vec4<S>;
   static constexpr int kDof = 4;
 
-  Vec3<S> moment = Vec3<S>::Zero();      // X x direction for any point X on the line; its length is the distance
+  Vec3<S> moment = Vec3<S>::Zero();  // X x direction for any point X on the line; its length is the distance
   Vec3<S> direction = Vec3<S>::UnitX();  // unit
 
   // Two different points.
@@ -25,7 +26,8 @@ struct Line3 {
     return {p.cross(d), d};
   }
   // The meeting line of the planes n . X + offset = 0, which must not be parallel.
-  [[nodiscard]] static Line3 from_planes(const Vec3<S>& n0, S offset0, const Vec3<S>& n1, S offset1) noexcept {
+  [[nodiscard]] static Line3 from_planes(const Vec3<S>& n0, S offset0, const Vec3<S>& n1,
+                                         S offset1) noexcept {
     const Vec3<S> d = n0.cross(n1);
     const S scale = 1 / d.norm();
     return {(offset0 * n1 - offset1 * n0) * scale, d * scale};
@@ -35,8 +37,8 @@ struct Line3 {
   [[nodiscard]] Vec3<S> point_closest_to(const Vec3<S>& p) const noexcept {
     return closest_point_to_origin() + direction * direction.dot(p);
   }
-  // The point of the line nearest to a ray from `origin` along the unit vector `ray`; for a parallel ray, nearest to
-  // its origin.
+  // The point of the line nearest to a ray from `origin` along the unit vector `ray`; for a parallel ray,
+  // nearest to its origin.
   [[nodiscard]] Vec3<S> closest_to_ray(const Vec3<S>& origin, const Vec3<S>& ray) const noexcept {
     const Vec3<S> p = point_closest_to(origin);
     const S cosine = direction.dot(ray);
@@ -45,8 +47,8 @@ struct Line3 {
     return p + direction * (cosine * ray.dot(p - origin) / sine2);
   }
 
-  // An orthonormal frame: along the moment, along the line, and from the origin to the line or back. Its third axis
-  // is the direction of u0 x u1.
+  // An orthonormal frame: along the moment, along the line, and from the origin to the line or back. Its
+  // third axis is the direction of u0 x u1.
   [[nodiscard]] Mat3<S> frame() const noexcept {
     Mat3<S> u;
     const S distance = moment.norm();
@@ -56,8 +58,8 @@ struct Line3 {
     return u;
   }
 
-  // Orthonormal representation (Bartoli and Sturm, CVIU 2005): delta[0..2] turns the frame from the left, delta[3]
-  // is added to the angle alpha with cot(alpha) = distance from the origin.
+  // Orthonormal representation (Bartoli and Sturm, CVIU 2005): delta[0..2] turns the frame from the left,
+  // delta[3] is added to the angle alpha with cot(alpha) = distance from the origin.
   [[nodiscard]] Line3 retract(const Vec4<S>& delta) const noexcept {
     const Mat3<S> u = SO3<S>::exp(delta.template head<3>()).matrix() * frame();
     const S alpha = std::atan2(S(1), moment.norm()) + delta[3];
@@ -78,6 +80,7 @@ struct Line3 {
     return {moment.template cast<T>(), direction.template cast<T>().normalized()};
   }
 };
+static_assert(Manifold<Line3<float>> && Manifold<Line3<double>>);
 
 // The same line in frame a: d_a = R d_b, n_a = R n_b + t x (R d_b).
 template <Scalar S>
@@ -86,12 +89,13 @@ template <Scalar S>
   return {a_from_b.rotation * line.moment + a_from_b.translation.cross(d), d};
 }
 
-// Image of a line of the camera frame: (a, b, c) in pixels with a^2 + b^2 = 1. Zero when the line runs through the
-// camera centre or lies in the plane z = 0.
+// Image of a line of the camera frame: (a, b, c) in pixels with a^2 + b^2 = 1. Zero when the line runs
+// through the camera centre or lies in the plane z = 0.
 template <Scalar S>
 [[nodiscard]] Vec3<S> project_line(const Pinhole<S>& k, const Line3<S>& in_camera) noexcept {
   const Vec3<S>& n = in_camera.moment;
-  const Vec3<S> l(k.fy * n.x(), k.fx * n.y(), k.fx * k.fy * n.z() - k.fy * k.cx * n.x() - k.fx * k.cy * n.y());
+  const Vec3<S> l(k.fy * n.x(), k.fx * n.y(),
+                  k.fx * k.fy * n.z() - k.fy * k.cx * n.x() - k.fx * k.cy * n.y());
   const S norm = l.template head<2>().norm();
   if (!(norm > 0)) return Vec3<S>::Zero();
   return l / norm;

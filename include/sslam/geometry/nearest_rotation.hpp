@@ -9,7 +9,8 @@
 
 namespace sslam {
 
-// Writes `rotation` only on success. kDegenerate when the matrix has rank below 2: many rotations are nearest.
+// Writes `rotation` only on success. kDegenerate when the matrix has rank below 2: many rotations are
+// nearest.
 template <Scalar S>
 [[nodiscard]] Status nearest_rotation(const Mat3<S>& m, SO3<S>& rotation) noexcept {
   if (!m.allFinite()) return Status::kNotFinite;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Similarities: rotation, translation and scale, x' = s R x + t, with tangent (phi, rho, log s), perturbed on the left.
+// Similarities: rotation, translation and scale, x' = s R x + t, with tangent (phi, rho, log s), perturbed on
+// the left.
 #pragma once
 
 #include <Eigen/LU>
@@ -35,41 +36,42 @@ struct Sim3 {
     return {r, -(r * translation) / scale, 1 / scale};
   }
   [[nodiscard]] Sim3 operator*(const Sim3& other) const noexcept {
-    return {rotation * other.rotation, scale * (rotation * other.translation) + translation, scale * other.scale};
+    return {rotation * other.rotation, scale * (rotation * other.translation) + translation,
+            scale * other.scale};
   }
-  [[nodiscard]] Vec3<S> operator*(const Vec3<S>& x) const noexcept { return scale * (rotation * x) + translation; }
+  [[nodiscard]] Vec3<S> operator*(const Vec3<S>& x) const noexcept {
+    return scale * (rotation * x) + translation;
+  }
 
   // Exp(xi) times this.
   [[nodiscard]] Sim3 retract(const Vec<S, 7>& xi) const noexcept { return exp(xi) * *this; }
 
  private:
-  // Integral over s in [0, 1] of e^(s sigma) Exp(s phi): takes rho to the translation (Strasdat, thesis 2012, 2.5.3).
+  // Integral over s in [0, 1] of e^(s sigma) Exp(s phi): takes rho to the translation (Strasdat, thesis
+  // 2012, 2.5.3). By Gauss-Legendre quadrature with ten nodes, which is exact to rounding for every angle up
+  // to pi and scales up to a hundred, and has none of the cancellations that the closed form has at small
+  // angles or scales near 1.
   [[nodiscard]] static Mat3<S> drift(const Vec3<S>& phi, S sigma) noexcept {
-    const S angle2 = phi.squaredNorm();
+    constexpr double kNode[] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
+                                0.8650633666889845, 0.9739065285171717};
+    constexpr double kWeight[] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820,
+                                  0.1494513491505806, 0.0666713443086881};
+    const S angle = phi.norm();
+    // The integrals of e^(s sigma) times 1, sin(s angle) / angle and (1 - cos(s angle)) / angle^2.
+    S c = 0, a = 0, b = 0;
+    for (int i = 0; i < 10; ++i) {
+      const S s = S(0.5 + (i % 2 == 0 ? 0.5 : -0.5) * kNode[i / 2]);
+      const S w = S(0.5 * kWeight[i / 2]) * std::exp(s * sigma);
+      const S half = s * sinc(s * angle / 2);
+      c += w;
+      a += w * s * sinc(s * angle);
+      b += w * half * half / 2;
+    }
     const Mat3<S> k = hat(phi);
-    // The integrals of e^(s sigma) times 1, sin(s a) / a and (1 - cos(s a)) / a^2.
-    const S small = S(1e-3);
-    if (std::abs(sigma) < small && angle2 < small) {
-      const S c = 1 + sigma / 2 + sigma * sigma / 6;
-      const S a = S(0.5) + sigma / 3 + sigma * sigma / 8 - angle2 / 24;
-      const S b = S(1) / 6 + sigma / 8 + sigma * sigma / 20 - angle2 / 120;
-      return c * Mat3<S>::Identity() + a * k + b * k * k;
-    }
-    const S e = std::exp(sigma);
-    const S c = std::abs(sigma) < small ? 1 + sigma / 2 + sigma * sigma / 6 : std::expm1(sigma) / sigma;
-    if (angle2 < small) {
-      // Moments of s and s^2 under e^(s sigma).
-      const S m1 = (e - c) / sigma, m2 = (e - 2 * m1) / sigma;
-      const S m3 = (e - 3 * m2) / sigma, m4 = (e - 4 * m3) / sigma;
-      return c * Mat3<S>::Identity() + (m1 - angle2 * m3 / 6) * k + (m2 / 2 - angle2 * m4 / 24) * k * k;
-    }
-    const S angle = std::sqrt(angle2);
-    const S norm2 = sigma * sigma + angle2;
-    const S sine = e * std::sin(angle), cosine = e * std::cos(angle);
-    const S int_sin = (sigma * sine - angle * (cosine - 1)) / norm2;
-    const S int_cos = (sigma * (cosine - 1) + angle * sine) / norm2;
-    return c * Mat3<S>::Identity() + int_sin / angle * k + (c - int_cos) / angle2 * k * k;
+    return c * Mat3<S>::Identity() + a * k + b * k * k;
   }
+  [[nodiscard]] static S sinc(S x) noexcept { return x > S(1e-4) ? std::sin(x) / x : 1 - x * x / 6; }
 };
+static_assert(Manifold<Sim3<float>> && Manifold<Sim3<double>>);
 
 }  // namespace sslam

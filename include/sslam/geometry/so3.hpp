@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rotations in three dimensions as unit quaternions, with exponential, logarithm and left perturbation.
+// Rotations in three dimensions as unit quaternions, with exponential, logarithm, left perturbation and its
+// Jacobian.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "sslam/core/types.hpp"
+#include "sslam/geometry/manifold.hpp"
 
 namespace sslam {
 
@@ -49,7 +50,7 @@ class SO3 {
     const S w = sign * q_.w();
     const S sine = v.norm();
     // 2 atan2(sine, w) / sine; for small angles atan(x) = x - x^3 / 3.
-    const S scale = sine > S(1e-3) ? 2 * std::atan2(sine, w) / sine : (2 - 2 * sine * sine / (3 * w * w)) / w;
+    const S scale = sine > S(1e-4) ? 2 * std::atan2(sine, w) / sine : (2 - 2 * sine * sine / (3 * w * w)) / w;
     return scale * v;
   }
 
@@ -80,11 +81,43 @@ class SO3 {
   explicit SO3(const Eigen::Quaternion<S>& q) noexcept : q_(q) {}
   Eigen::Quaternion<S> q_;
 };
+static_assert(Manifold<SO3<float>> && Manifold<SO3<double>>);
 
 // Angle of the rotation that takes one to the other, radians in [0, pi].
 template <Scalar S>
 [[nodiscard]] S angle_between(const SO3<S>& a, const SO3<S>& b) noexcept {
   return (a * b.inverse()).log().norm();
+}
+
+// Exp(phi + d) = Exp(J d) Exp(phi) to first order. J is the integral of Exp(s phi) over s in [0, 1], so it
+// also takes rho to the translation of Exp(phi, rho) (Barfoot, State Estimation for Robotics, 2017,
+// section 7.1).
+template <Scalar S>
+[[nodiscard]] Mat3<S> left_jacobian(const Vec3<S>& phi) noexcept {
+  const S angle2 = phi.squaredNorm();
+  S a = S(0.5) - angle2 / 24 + angle2 * angle2 / 720;      // (1 - cos) / angle^2
+  S b = S(1) / 6 - angle2 / 120 + angle2 * angle2 / 5040;  // (angle - sin) / angle^3
+  if (angle2 > S(1e-3)) {
+    const S angle = std::sqrt(angle2);
+    const S half = std::sin(angle / 2);
+    a = 2 * half * half / angle2;
+    b = (angle - std::sin(angle)) / (angle2 * angle);
+  }
+  const Mat3<S> k = hat(phi);
+  return Mat3<S>::Identity() + a * k + b * k * k;
+}
+
+// Log(Exp(d) Exp(phi)) = phi + J^-1 d to first order; |phi| below 2 pi.
+template <Scalar S>
+[[nodiscard]] Mat3<S> left_jacobian_inverse(const Vec3<S>& phi) noexcept {
+  const S angle2 = phi.squaredNorm();
+  S c = S(1) / 12 + angle2 / 720 + angle2 * angle2 / 30240;
+  if (angle2 > S(1e-3)) {
+    const S angle = std::sqrt(angle2);
+    c = (1 - (angle / 2) / std::tan(angle / 2)) / angle2;
+  }
+  const Mat3<S> k = hat(phi);
+  return Mat3<S>::Identity() - k / 2 + c * k * k;
 }
 
 }  // namespace sslam

@@ -28,7 +28,8 @@ struct TangentChart {
   Vec3<S> axis;
   Mat<S, 3, 2> basis;
 
-  explicit TangentChart(const Vec3<S>& unit_axis) noexcept : axis(unit_axis), basis(tangent_basis(unit_axis)) {}
+  explicit TangentChart(const Vec3<S>& unit_axis) noexcept
+      : axis(unit_axis), basis(tangent_basis(unit_axis)) {}
 
   [[nodiscard]] Vec2<S> to_plane(const Vec3<S>& unit) const noexcept {
     const Vec2<S> m = basis.transpose() * unit;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robust losses: rho(s) of a squared, noise-weighted error s, and weight(s) = rho'(s) for reweighted least squares.
+// Robust losses: rho(s) of a squared, noise-weighted error s, and weight(s) = rho'(s) for reweighted least
+// squares.
 #pragma once
 
 #include <cmath>

@@ -13,7 +13,7 @@ inline constexpr S kMinDepth = S(1e-4);
 
 template <Scalar S>
 struct PointReprojection {
-  Vec2<S> error;           // observed minus projected, pixels
+  Vec2<S> error;                  // observed minus projected, pixels
   Mat<S, 2, 3> wrt_camera_point;  // d error / d (point in the camera frame)
   Vec3<S> in_camera;
 

@@ -5,23 +5,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <concepts>
+#include <limits>
 
 #include "sslam/core/status.hpp"
-#include "sslam/core/types.hpp"
+#include "sslam/geometry/manifold.hpp"
 
 namespace sslam {
 
-template <class X>
-using ScalarOf = typename X::ScalarType;
-
-// A state that is moved by tangent vectors of kDof entries.
-template <class X>
-concept Manifold = requires(const X x, const Vec<ScalarOf<X>, X::kDof>& delta) {
-  { x.retract(delta) } -> std::convertible_to<X>;
-};
-
-// Sums of J^T w J, J^T w r and w r^2 over the rows of a least-squares problem. Only the lower half of H is kept
+// Sums of J^T w J and J^T w r over the rows of a least-squares problem. Only the lower half of H is kept
 // while summing; complete() mirrors it.
 template <Scalar S, int D>
 struct NormalEquations {
@@ -55,94 +46,132 @@ struct LmOptions {
   int max_iterations = 10;
   double initial_damping = 1e-4;  // relative to the diagonal of H
   double min_step = 1e-7;         // tangent norm below which the state stands still
-  double min_decrease = 1e-6;     // relative decrease of the cost that ends the search
+  double min_decrease =
+      1e-6;  // share of the cost: a step that wins less, or promises a tenth of it, is the last
 };
 
 template <Scalar S, int D>
 struct LmSummary {
   Status status = Status::kTooFew;
-  int iterations = 0;
+  int iterations = 0;  // steps tried
   S initial_cost = 0, final_cost = 0;
   int count = 0;
   Mat<S, D, D> information = Mat<S, D, D>::Zero();  // J^T W J at the answer
 };
 
+// Whether the information matrix tells every direction of the tangent, up to rounding: a Cholesky
+// factorisation of the matrix scaled to a unit diagonal, so that the units of its rows do not matter.
+template <Scalar S, int D>
+[[nodiscard]] bool is_observable(const Mat<S, D, D>& information) noexcept {
+  constexpr S kMinPivot = 64 * std::numeric_limits<S>::epsilon();
+  Vec<S, D> scale;
+  for (int a = 0; a < D; ++a) {
+    if (!(information(a, a) > 0)) return false;
+    scale[a] = 1 / std::sqrt(information(a, a));
+  }
+  Mat<S, D, D> l = scale.asDiagonal() * information * scale.asDiagonal();
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      S sum = l(a, b);
+      for (int c = 0; c < b; ++c) sum -= l(a, c) * l(b, c);
+      if (a == b && !(sum > kMinPivot)) return false;
+      l(a, b) = a == b ? std::sqrt(sum) : sum / l(b, b);
+    }
+  }
+  return true;
+}
+
 namespace detail {
 
-// A problem that answers its cost alone has the same observations everywhere.
-template <Scalar S>
-[[nodiscard]] Evaluated<S> counted(S cost, int count) noexcept {
-  return {cost, count};
-}
-template <Scalar S>
-[[nodiscard]] Evaluated<S> counted(const Evaluated<S>& evaluated, int) noexcept {
-  return evaluated;
-}
-
-}  // namespace detail
-
-// problem(x, equations): evaluates at x, adding to *equations unless it is null, and returns the cost
-// or Evaluated<S>. The state changes only when the cost goes down. kDegenerate: H cannot be factored at any damping; kNotFinite: at the start.
-template <Manifold X, class Problem, class S = ScalarOf<X>>
-[[nodiscard]] LmSummary<S, X::kDof> minimize(const Problem& problem, X& x, const LmOptions& options = {}) noexcept {
-  constexpr int D = X::kDof;
-  LmSummary<S, D> summary;
+// A problem and its value, gradient and curvature at one state.
+template <Scalar S, int D>
+struct Linearized {
   NormalEquations<S, D> equations;
-  Evaluated<S> current = detail::counted<S>(problem(x, &equations), equations.count);
-  equations.complete();
-  summary.initial_cost = summary.final_cost = current.cost;
-  summary.count = current.count;
-  summary.information = equations.H;
-  if (current.count == 0) return summary;
-  if (!std::isfinite(current.cost) || !equations.H.allFinite() || !equations.g.allFinite()) {
-    summary.status = Status::kNotFinite;
-    return summary;
+  Evaluated<S> value;
+
+  template <class Problem, class X>
+  Linearized(const Problem& problem, const X& x) noexcept {
+    value = counted(problem(x, &equations));
+    equations.complete();
   }
-  summary.status = Status::kNotConverged;
-  constexpr S kMaxDamping = S(1e6);
-  S damping = static_cast<S>(options.initial_damping);
-  bool factored = false;
-  while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
-    ++summary.iterations;
+  [[nodiscard]] bool finite() const noexcept {
+    return std::isfinite(value.cost) && equations.H.allFinite() && equations.g.allFinite();
+  }
+  // Solves (H + damping diag H) step = -g.
+  [[nodiscard]] bool solve(S damping, Vec<S, D>& step) const noexcept {
     Mat<S, D, D> damped = equations.H;
     for (int a = 0; a < D; ++a) damped(a, a) += damping * std::max(damped(a, a), S(1e-9));
     const Eigen::LLT<Mat<S, D, D>> factor(damped);
-    const bool solved = factor.info() == Eigen::Success;
-    const Vec<S, D> step = solved ? Vec<S, D>(-factor.solve(equations.g)) : Vec<S, D>(Vec<S, D>::Zero());
-    if (!solved || !step.allFinite()) {
+    if (factor.info() != Eigen::Success) return false;
+    step = -factor.solve(equations.g);
+    return step.allFinite();
+  }
+
+ private:
+  // A problem that answers its cost alone is counted by its rows.
+  [[nodiscard]] Evaluated<S> counted(S cost) const noexcept { return {cost, equations.count}; }
+  [[nodiscard]] Evaluated<S> counted(const Evaluated<S>& evaluated) const noexcept { return evaluated; }
+};
+
+}  // namespace detail
+
+// problem(x, equations) adds its rows at x to *equations and returns the cost, or Evaluated<S> where not
+// every observation is valid at every state. A step is refused, and the damping raised, when H cannot be
+// factored, when anything is not finite, when the cost does not fall or when the number of valid observations
+// changes; the state only ever changes to a better one.
+//   kOk: stands still; kNotConverged: ran out of iterations, or nothing but refused observations lies around;
+//   kTooFew: nothing valid at the start; kNotFinite: at the start; kDegenerate: H cannot be factored at any
+//   damping.
+template <Manifold X, class Problem, class S = ScalarOf<X>>
+[[nodiscard]] LmSummary<S, X::kDof> minimize(const Problem& problem, X& x,
+                                             const LmOptions& options = {}) noexcept {
+  constexpr int D = X::kDof;
+  constexpr S kMinDamping = S(1e-9), kMaxDamping = S(1e6);
+  LmSummary<S, D> summary;
+  detail::Linearized<S, D> current(problem, x);
+  summary.initial_cost = current.value.cost;
+  const auto finish = [&](Status status) {
+    summary.status = status;
+    summary.final_cost = current.value.cost;
+    summary.count = current.value.count;
+    summary.information = current.equations.H;
+    return summary;
+  };
+  if (current.value.count == 0) return finish(Status::kTooFew);
+  if (!current.finite()) return finish(Status::kNotFinite);
+
+  const auto min_decrease = static_cast<S>(options.min_decrease);
+  S damping = static_cast<S>(options.initial_damping);
+  bool factored = false, comparable = true;
+  while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
+    ++summary.iterations;
+    Vec<S, D> step;
+    if (!current.solve(damping, step)) {
       damping *= 10;
       continue;
     }
     factored = true;
-    if (step.norm() < static_cast<S>(options.min_step)) {
-      summary.status = Status::kOk;
-      break;
-    }
+    // The linear model promises at least -g . step.
+    const S promised = -current.equations.g.dot(step);
+    if (step.norm() < static_cast<S>(options.min_step) ||
+        promised <= min_decrease * S(0.1) * current.value.cost)
+      return finish(Status::kOk);
     const X trial = x.retract(step);
-    const Evaluated<S> tried =
-        detail::counted<S>(problem(trial, static_cast<NormalEquations<S, D>*>(nullptr)), current.count);
-    if (!(tried.cost < current.cost) || tried.count != current.count) {
+    const detail::Linearized<S, D> tried(problem, trial);
+    comparable = tried.value.count == current.value.count && tried.finite();
+    if (!comparable || !(tried.value.cost < current.value.cost)) {
       damping *= 10;
       continue;
     }
-    const S decrease = (current.cost - tried.cost) / std::max(current.cost, S(1e-30));
+    const bool settled = current.value.cost - tried.value.cost < min_decrease * current.value.cost;
     x = trial;
-    damping = std::max(damping / 10, S(1e-9));
-    equations = {};
-    current = detail::counted<S>(problem(x, &equations), equations.count);
-    equations.complete();
-    summary.information = equations.H;
-    if (decrease < static_cast<S>(options.min_decrease)) {
-      summary.status = Status::kOk;
-      break;
-    }
+    current = tried;
+    damping = std::max(damping / 10, kMinDamping);
+    if (settled) return finish(Status::kOk);
   }
+  if (!factored) return finish(Status::kDegenerate);
   // Damped into standing still: no better state is near.
-  if (factored && damping >= kMaxDamping) summary.status = Status::kOk;
-  if (!factored) summary.status = Status::kDegenerate;
-  summary.final_cost = current.cost;
-  summary.count = current.count;
-  return summary;
+  return finish(damping >= kMaxDamping && comparable ? Status::kOk : Status::kNotConverged);
 }
 
 }  // namespace sslam
