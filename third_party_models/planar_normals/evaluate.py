@@ -43,14 +43,24 @@ class OpenCVPredictor:
         return planar[0, 0], normal[0].transpose(1, 2, 0), confidence[0, 0]
 
 
+def network_image(image, camera):
+    """The image as the network's camera sees it, and the homography from the image's pixels; as NetworkView does it."""
+    height, width = image.shape[:2]
+    factor = max(1, int(min(camera[0, 0], camera[1, 1]) / samples.FOCAL))
+    size = (width // factor, height // factor)
+    # averaging over whole pixels first, so that bilinear sampling does not alias
+    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA) if factor > 1 else image
+    rx, ry = size[0] / width, size[1] / height
+    reduce = np.array([[rx, 0, 0.5 * rx - 0.5], [0, ry, 0.5 * ry - 0.5], [0, 0, 1]])
+    homography = samples.network_camera() @ np.linalg.inv(camera)
+    warped = cv2.warpPerspective(small, homography @ np.linalg.inv(reduce), (samples.WIDTH, samples.HEIGHT),
+                                 flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT_101)
+    return warped, homography
+
+
 def predict(predictor, image, camera):
     """Prediction for any pinhole image: warped to the network's camera and back."""
-    homography = samples.network_camera() @ np.linalg.inv(camera)
-    shrink = homography[0, 0]
-    if shrink < 0.6:  # prefilter, so that bilinear sampling does not alias
-        image = cv2.GaussianBlur(image, (0, 0), 0.4 / shrink)
-    net_image = cv2.warpPerspective(image, homography, (samples.WIDTH, samples.HEIGHT), flags=cv2.INTER_LINEAR,
-                                    borderMode=cv2.BORDER_REFLECT_101)
+    net_image, homography = network_image(image, camera)
     back = samples.OUT_FROM_IN @ homography
     size = (image.shape[1], image.shape[0])
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
@@ -91,7 +101,7 @@ def evaluate_planes(predictor, path, split, limit=None):
             "balanced_accuracy": float((hits / totals).mean())}
 
 
-def depth_normals(depth, camera, radius=6):
+def depth_normals(depth, camera, radius=10):
     """Unit normals towards the camera by least squares over a window in inverse depth; zero where unclear.
 
     On a plane 1 / z = a u + b v + c exactly, so the normal is that of a linear fit; windows over a depth edge or with

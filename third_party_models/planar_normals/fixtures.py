@@ -73,16 +73,13 @@ def write_json(path, value):
 
 
 def shipped_answer(model, image_path, focal):
-    """CSV rows `u v x y z planar` on every fourth pixel of the output, which lies wholly inside the image."""
-    import data as samples
-    from evaluate import OpenCVPredictor
+    """Rows `u v x y z planar` for every fourth pixel of the output."""
+    from evaluate import OpenCVPredictor, network_image
 
     image = cv2.cvtColor(cv2.imread(image_path), cv2.COLOR_BGR2RGB)
     height, width = image.shape[:2]
-    camera = samples.camera_matrix(focal, focal, (width - 1) / 2, (height - 1) / 2)
-    warped = cv2.warpPerspective(image, samples.network_camera() @ np.linalg.inv(camera), (samples.WIDTH, samples.HEIGHT),
-                                 flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT_101)
-    planar, normal, _ = OpenCVPredictor(model)(warped)
+    camera = np.array([[focal, 0, (width - 1) / 2], [0, focal, (height - 1) / 2], [0, 0, 1]])
+    planar, normal, _ = OpenCVPredictor(model)(network_image(image, camera)[0])
     rows = ["# u v x y z planar: the shipped model's answer to room.jpg, by fixtures.py\n"]
     for v in range(2, planar.shape[0], 4):
         for u in range(2, planar.shape[1], 4):
