@@ -3,13 +3,13 @@
 // too).
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sslam/geometry/camera.hpp"
 
@@ -48,6 +48,15 @@ class CameraKeys {
   // 0 when absent.
   [[nodiscard]] double optional_positive(const std::string& key, const std::string& meaning) const {
     return has(key) ? positive(key, finite(key, meaning), meaning) : 0;
+  }
+
+  // A width or height, 0 when absent.
+  [[nodiscard]] int optional_pixels(const std::string& key) const {
+    constexpr double kLargest = 65535;
+    const std::string meaning = "a whole number of pixels";
+    const double value = optional_positive(key, meaning);
+    if (value <= kLargest && value == std::floor(value)) return static_cast<int>(value);
+    throw std::runtime_error(file_ + ": " + key + " is " + short_text(value) + "; expected " + meaning);
   }
 
   [[nodiscard]] std::string text(const std::string& key) const {
@@ -121,7 +130,7 @@ inline void open_yaml(cv::FileStorage& storage, const std::filesystem::path& pat
   distortion.p1 = keys.optional(prefix + "p1", 0, coefficient);
   distortion.p2 = keys.optional(prefix + "p2", 0, coefficient);
   distortion.k3 = keys.optional(prefix + "k3", 0, coefficient);
-  file.camera.width = static_cast<int>(keys.optional_positive("Camera.width", "the image width in pixels"));
+  file.camera.width = keys.optional_pixels("Camera.width");
   file.camera.height =
       static_cast<int>(keys.optional_positive("Camera.height", "the image height in pixels"));
   file.frame_rate = keys.optional_positive("Camera.fps", "frames a second");
