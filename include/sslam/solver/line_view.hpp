@@ -51,11 +51,6 @@ struct LineGeometry {
     ray[0] = R.transpose() * v.segment.start.homogeneous().normalized();
     ray[1] = R.transpose() * v.segment.end.homogeneous().normalized();
   }
-  [[nodiscard]] Vec3<S> normal() const noexcept { return ray[0].cross(ray[1]).normalized(); }
-  // Normal of the plane through the centre, the middle of the segment and a known direction.
-  [[nodiscard]] Vec3<S> normal_along(const Vec3<S>& direction) const noexcept {
-    return (ray[0] + ray[1]).cross(direction).normalized();
-  }
   [[nodiscard]] SE3<S> camera_from_origin() const noexcept {
     return {view.cam_from_world.rotation, -(R * centre)};
   }

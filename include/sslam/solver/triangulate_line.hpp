@@ -13,18 +13,18 @@
 #include <span>
 
 #include "sslam/core/status.hpp"
-#include "sslam/solver/levenberg_marquardt.hpp"
-#include "sslam/solver/line_view.hpp"
+#include "sslam/solver/line_problem.hpp"
 
 namespace sslam {
 
 template <Scalar S>
 struct LineTriangulationOptions {
-  S min_parallax = radians(S(2));  // largest angle between two interpretation planes: less is kLowParallax
-  S max_relative_sigma = S(0.2);   // uncertainty of the line's place over its distance: more is kLowParallax
-  S max_error = S(3);              // distance of an observed end from the projected line, standard deviations
-  S min_depth = S(1e-4);           // along z of the seen ends in each view, units of the map
-  S max_stretch = 30;              // length over distance from the nearest camera: more is kDegenerate
+  S min_parallax = radians(
+      S(2));  // largest angle between two interpretation planes: less, or within the noise, is kLowParallax
+  S max_relative_sigma = S(0.2);  // uncertainty of an end over its distance: more is kLowParallax
+  S max_error = S(3);             // distance of an observed end from the projected line, standard deviations
+  S min_depth = S(1e-4);          // along z of the seen ends in each view, units of the map
+  S max_stretch = 30;             // length over distance from the nearest camera: more is kDegenerate
   LmOptions solver;
 };
 
@@ -41,104 +41,6 @@ struct LineTriangulation {
 };
 
 namespace detail {
-
-// A line of known direction: two degrees of freedom, its place across the direction.
-template <Scalar S>
-struct ParallelLine {
-  using ScalarType = S;
-  static constexpr int kDof = 2;
-  Vec3<S> direction;
-  Mat<S, 3, 2> basis;  // across the direction
-  Vec2<S> place;
-
-  [[nodiscard]] ParallelLine retract(const Vec2<S>& delta) const noexcept {
-    return {direction, basis, place + delta};
-  }
-  [[nodiscard]] Line3<S> line() const noexcept { return {(basis * place).cross(direction), direction}; }
-};
-
-template <Scalar S>
-[[nodiscard]] const Line3<S>& line_of(const Line3<S>& line) noexcept {
-  return line;
-}
-template <Scalar S>
-[[nodiscard]] Line3<S> line_of(const ParallelLine<S>& line) noexcept {
-  return line.line();
-}
-template <Scalar S>
-[[nodiscard]] Mat<S, 2, 4> jacobian(const LineReprojection<S>& r, const SE3<S>& cam,
-                                    const Line3<S>& line) noexcept {
-  return r.wrt_line(cam, line);
-}
-template <Scalar S>
-[[nodiscard]] Mat2<S> jacobian(const LineReprojection<S>& r, const SE3<S>& cam,
-                               const ParallelLine<S>& line) noexcept {
-  return -r.wrt_moment * cam.rotation.matrix() * hat(line.direction) * line.basis;
-}
-
-// Squared distances of the observed ends from the projected line, in variances.
-template <Scalar S>
-struct LineProblem {
-  std::span<const LineView<S>> views;
-  Vec3<S> origin;
-
-  template <class Line>
-  [[nodiscard]] Evaluated<S> operator()(const Line& line,
-                                        NormalEquations<S, Line::kDof>* equations) const noexcept {
-    Evaluated<S> sum;
-    LineReprojection<S> r;
-    for (const LineView<S>& view : views) {
-      const SE3<S> cam = LineGeometry<S>(view, origin).camera_from_origin();
-      if (!line_reprojection(Pinhole<S>{}, cam, line_of(line), view.segment, r)) continue;
-      const S weight = 1 / (view.sigma * view.sigma);
-      sum.cost += weight * r.error.squaredNorm();
-      sum.count += 2;
-      if (!equations) continue;
-      const Mat<S, 2, Line::kDof> j = jacobian(r, cam, line);
-      for (int i = 0; i < 2; ++i) equations->add(j.row(i), r.error[i], weight);
-    }
-    return sum;
-  }
-
-  [[nodiscard]] S largest_error(const Line3<S>& line) const noexcept {
-    S worst = 0;
-    LineReprojection<S> r;
-    for (const LineView<S>& view : views) {
-      const SE3<S> cam = LineGeometry<S>(view, origin).camera_from_origin();
-      if (!line_reprojection(Pinhole<S>{}, cam, line, view.segment, r)) return std::numeric_limits<S>::max();
-      worst = std::max(worst, r.error.template lpNorm<Eigen::Infinity>() / view.sigma);
-    }
-    return worst;
-  }
-};
-
-// Largest angle between two planes; normal(view) gives their normals.
-template <Scalar S, class Normal>
-[[nodiscard]] S plane_parallax(std::span<const LineView<S>> views, Normal normal) noexcept {
-  S sine = 0;
-  for (std::size_t i = 0; i < views.size(); ++i)
-    for (std::size_t j = i + 1; j < views.size(); ++j)
-      sine = std::max(sine, normal(views[i]).cross(normal(views[j])).norm());
-  return std::asin(std::min(sine, S(1)));
-}
-
-// The point across `basis` that is nearest to all planes: sum of (n . (X - c))^2 is least.
-template <Scalar S, class Normal>
-[[nodiscard]] bool place_across(std::span<const LineView<S>> views, const Vec3<S>& origin,
-                                const Mat<S, 3, 2>& basis, Normal normal, Vec2<S>& place) noexcept {
-  Mat2<S> a = Mat2<S>::Zero();
-  Vec2<S> b = Vec2<S>::Zero();
-  for (const LineView<S>& view : views) {
-    const Vec3<S> n = normal(view);
-    const Vec2<S> row = basis.transpose() * n;
-    a += row * row.transpose();
-    b += row * n.dot(LineGeometry<S>(view, origin).centre);
-  }
-  const Eigen::LLT<Mat2<S>> factor(a);
-  if (factor.info() != Eigen::Success) return false;
-  place = factor.solve(b);
-  return place.allFinite();
-}
 
 // Trims the line to what the views show of it, and checks that they can. `line` is relative to the origin.
 template <Scalar S>
@@ -166,17 +68,6 @@ template <Scalar S>
   return Status::kOk;
 }
 
-// How a point at `middle` moves across the line with the degrees of freedom of the minimisation.
-template <Scalar S>
-[[nodiscard]] Mat<S, 3, 4> across_jacobian(const Line3<S>& line, const Vec3<S>& middle) noexcept {
-  const Mat<S, 6, 4> j = line.retract_jacobian();
-  return hat(line.direction) * (j.template topRows<3>() - hat(middle) * j.template bottomRows<3>());
-}
-template <Scalar S>
-[[nodiscard]] Mat<S, 3, 2> across_jacobian(const ParallelLine<S>& line, const Vec3<S>&) noexcept {
-  return line.basis;
-}
-
 // From a start to the result: minimise, check, trim, judge the uncertainty.
 template <Scalar S, class Line>
 [[nodiscard]] Status finish(std::span<const LineView<S>> views, const Vec3<S>& origin, Line line,
@@ -191,14 +82,18 @@ template <Scalar S, class Line>
   const Status trimmed = trim(views, origin, found, options, result);
   if (trimmed != Status::kOk) return trimmed;
   result.line = {found.moment + origin.cross(found.direction), found.direction};
-  const Vec3<S> middle = (result.start + result.end) / 2 - origin;
   const Eigen::LLT<Mat<S, D, D>> factor(summary.information);
   if (factor.info() != Eigen::Success) return Status::kLowParallax;
-  const Mat<S, 3, D> j = across_jacobian(line, middle);
-  result.covariance = j * factor.solve(j.transpose());
-  const S distance = (middle - LineGeometry<S>(views[0], origin).centre).norm();
-  if (!(result.covariance.trace() < std::pow(options.max_relative_sigma * distance, 2)))
-    return Status::kLowParallax;
+  const auto covariance = [&](const Vec3<S>& at) -> Mat3<S> {
+    const Mat<S, 3, D> j = across_jacobian(line, Vec3<S>(at - origin));
+    return j * factor.solve(j.transpose());
+  };
+  result.covariance = covariance((result.start + result.end) / 2);
+  for (const Vec3<S>& end : {result.start, result.end}) {
+    const S distance = (end - origin).norm();
+    if (!(covariance(end).trace() < std::pow(options.max_relative_sigma * distance, 2)))
+      return Status::kLowParallax;
+  }
   return result.max_error > options.max_error ? Status::kNoConsensus : Status::kOk;
 }
 
@@ -223,18 +118,23 @@ template <Scalar S>
   result.status = detail::check(views);
   if (!usable(result.status)) return result;
   const Vec3<S> origin = LineGeometry<S>(views[0], Vec3<S>::Zero()).centre;
-  const auto normal = [&](const LineView<S>& view) { return LineGeometry<S>(view, origin).normal(); };
-  result.parallax = detail::plane_parallax(views, normal);
+  const auto plane = [&](const LineView<S>& view) {
+    return detail::ViewPlane<S>(LineGeometry<S>(view, origin));
+  };
+  result.parallax = detail::plane_parallax(views, plane);
   result.status = Status::kLowParallax;
   if (result.parallax < options.min_parallax) return result;
 
   Mat3<S> normals = Mat3<S>::Zero();
-  for (const LineView<S>& view : views) normals += normal(view) * normal(view).transpose();
+  for (const LineView<S>& view : views) {
+    const Vec3<S> n = plane(view).normal;
+    normals += n * n.transpose();
+  }
   const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(normals);
   const Vec3<S> direction = eigen.eigenvectors().col(0);
   const Mat<S, 3, 2> basis = tangent_basis(direction);
   Vec2<S> place;
-  if (!detail::place_across(views, origin, basis, normal, place)) return result;
+  if (!detail::place_across(views, origin, basis, plane, place)) return result;
   const Vec3<S> foot = basis * place;
   result.status = detail::finish(views, origin, Line3<S>{foot.cross(direction), direction}, options, result);
   return result;
@@ -256,15 +156,15 @@ template <Scalar S>
   if (!(length > 0)) return result;
   const Vec3<S> direction = direction_world / length;
   const Vec3<S> origin = LineGeometry<S>(views[0], Vec3<S>::Zero()).centre;
-  const auto normal = [&](const LineView<S>& view) {
-    return LineGeometry<S>(view, origin).normal_along(direction);
+  const auto plane = [&](const LineView<S>& view) {
+    return detail::ViewPlane<S>(LineGeometry<S>(view, origin), direction);
   };
-  result.parallax = detail::plane_parallax(views, normal);
+  result.parallax = detail::plane_parallax(views, plane);
   result.status = Status::kLowParallax;
   if (!(result.parallax >= options.min_parallax / 2)) return result;
   const Mat<S, 3, 2> basis = tangent_basis(direction);
   Vec2<S> place;
-  if (!detail::place_across(views, origin, basis, normal, place)) return result;
+  if (!detail::place_across(views, origin, basis, plane, place)) return result;
   result.status =
       detail::finish(views, origin, detail::ParallelLine<S>{direction, basis, place}, options, result);
   return result;

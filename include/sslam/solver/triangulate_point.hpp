@@ -26,7 +26,7 @@ template <Scalar S>
 struct PointTriangulationOptions {
   S min_parallax = radians(S(1));  // largest angle between two of the rays: less is kLowParallax
   S min_depth = S(1e-4);           // along z in every view, units of the map
-  S max_error = S(2.45);  // reprojection error of every view, standard deviations (95 % in two dimensions)
+  S max_error = 3;  // reprojection error of every view, standard deviations (98.9 % in two dimensions)
   int max_iterations = 8;
 };
 
