@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/presets.hpp"
+#include "cli/stages.hpp"
 #include "cli/track_sequence.hpp"
 
 namespace sslam::cli {

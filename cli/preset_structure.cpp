@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/presets.hpp"
+#include "cli/stages.hpp"
 #include "cli/track_sequence.hpp"
-#include "sslam/ceres/local_bundle_adjustment.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "cli/frame_record.hpp"
 #include "cli/run.hpp"
+#include "sslam/geometry/camera.hpp"
 #include "sslam/io/dataset.hpp"
 
 namespace sslam::cli {

@@ -8,8 +8,13 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -17,6 +22,8 @@
 #include "cli/synth_files.hpp"
 #include "cli/synth_names.hpp"
 #include "cli/worker_threads.hpp"
+#include "sslam/io/error.hpp"
+#include "sslam/io/text.hpp"
 #include "sslam/testing/render.hpp"
 #include "sslam/testing/shutter.hpp"
 
@@ -81,6 +88,19 @@ bool parse_size(const std::string& text, int& width, int& height) {
          height <= 8192;
 }
 
+// A number between two bounds; CLI::Range lets nan through.
+CLI::Validator between(double low, double high) {
+  return CLI::Validator(
+      [low, high](std::string& text) {
+        const std::optional<double> value = io::parse_number<double>(text);
+        if (value && *value >= low && *value <= high) return std::string();
+        char reason[128];
+        std::snprintf(reason, sizeof reason, "expected a number between %g and %g, found ", low, high);
+        return reason + ("'" + text + "'");
+      },
+      "");
+}
+
 void run_synth(const SynthSettings& settings) {
   const SynthReport report = synthesise(settings);
   std::printf("%s: %d frames, %.1f m, house built in %.1f s, %.1f frames/s\n", settings.folder.c_str(),
@@ -89,37 +109,52 @@ void run_synth(const SynthSettings& settings) {
   if (report.interrupted) throw Stop{ExitCode::kInterrupted};
 }
 
-void add_scene_options(CLI::App& synth, const std::shared_ptr<SynthSettings>& s) {
-  synth.add_option("--seed", s->house.seed, "of layout, materials, light, path and noise; default 1");
-  synth.add_option("--texture", s->house.richness, "rich, mixed or poor (plain paint alone); default rich")
-      ->transform(CLI::CheckedTransformer(kRichnessNames).description(""));
-  synth
-      .add_option(
-          "--world", s->house.world,
-          "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
-          "between walls); of a single room; default manhattan")
-      ->transform(CLI::CheckedTransformer(kWorldNames).description(""));
-  synth.add_option("--rooms", s->house.rooms, "1, or 3 along a corridor; default 1")
-      ->check(CLI::IsMember({1, 3}));
-  synth
-      .add_option(
-          "--path", s->house.path,
-          "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
-          "always toured; default loop")
-      ->transform(CLI::CheckedTransformer(kPathNames).description(""));
-  synth.add_option("--speed", s->house.motion.speed, "metres per second; default 0.5")
-      ->check(CLI::Range(0.01, 5.0));
-  synth.add_option("--tremor", s->house.motion.tremor, "of the hand; 0: none, default 1")
-      ->check(CLI::Range(0.0, 10.0));
+// An option whose value is one of a few words.
+template <class Value>
+void add_choice(CLI::App& app, const std::string& flag, Value& target,
+                const std::map<std::string, Value>& names, const std::string& meaning) {
+  app.add_option_function<std::string>(
+         flag, [&target, &names](const std::string& word) { target = names.at(word); }, meaning)
+      ->check([&names](const std::string& word) {
+        if (names.count(word) != 0) return std::string();
+        std::string known;
+        for (const auto& [name, value] : names) known += (known.empty() ? "" : ", ") + name;
+        return "'" + word + "' is not one of " + known;
+      });
 }
 
-void add_camera_options(CLI::App& synth, const std::shared_ptr<SynthSettings>& s) {
-  synth.add_option("--frames", s->frames, "how many; default one lap of the path")
-      ->check(CLI::Range(1, 1000000));
-  synth.add_option("--fps", s->rate, "frames per second; default 30")->check(CLI::Range(0.1, 1000.0));
+// The settings must live until the application has been parsed.
+void add_scene_options(CLI::App& synth, SynthSettings& s) {
+  synth.add_option("--seed", s.house.seed, "of layout, materials, light, path and noise; default 1")
+      ->check([](const std::string& text) {
+        return io::parse_number<std::uint64_t>(text) ? std::string()
+                                                     : "'" + text + "' is not a whole number from 0 on";
+      });
+  add_choice(synth, "--texture", s.house.richness, kRichnessNames,
+             "rich, mixed or poor (plain paint alone); default rich");
+  add_choice(
+      synth, "--world", s.house.world, kWorldNames,
+      "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
+      "between walls); the last two for a single room; default manhattan");
+  synth.add_option("--rooms", s.house.rooms, "1, or 3 along a corridor; default 1")
+      ->check(CLI::IsMember({1, 3}).description(""));
+  add_choice(
+      synth, "--path", s.house.path, kPathNames,
+      "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
+      "always toured; default loop");
+  synth.add_option("--speed", s.house.motion.speed, "metres per second; default 0.5")
+      ->check(between(0.01, 5.0));
+  synth.add_option("--tremor", s.house.motion.tremor, "of the hand; 0: none, default 1")
+      ->check(between(0.0, 10.0));
+}
+
+void add_camera_options(CLI::App& synth, SynthSettings& s) {
+  synth.add_option("--frames", s.frames, "how many; default one lap of the path")
+      ->check(CLI::Range(1, 1000000).description(""));
+  synth.add_option("--fps", s.rate, "frames per second; default 30")->check(between(0.1, 1000.0));
   synth
       .add_option_function<std::string>(
-          "--size", [s](const std::string& text) { (void)parse_size(text, s->width, s->height); },
+          "--size", [&s](const std::string& text) { (void)parse_size(text, s.width, s.height); },
           "WIDTHxHEIGHT in pixels; default 640x480")
       ->check([](const std::string& text) {
         int width = 0, height = 0;
@@ -127,24 +162,30 @@ void add_camera_options(CLI::App& synth, const std::shared_ptr<SynthSettings>& s
                    ? std::string()
                    : "'" + text + "' is not a size such as 640x480 (32 to 8192 pixels)";
       });
-  synth.add_option("--focal", s->focal, "focal length in pixels; default three quarters of the width")
-      ->check(CLI::Range(10.0, 1e5));
-  synth.add_option("--noise", s->sensor.noise, "standard deviation in grey levels; default 1.5")
-      ->check(CLI::Range(0.0, 100.0));
-  synth.add_option("--vignetting", s->sensor.vignetting, "darkening of the corners as a share; default 0.12")
-      ->check(CLI::Range(0.0, 1.0));
-  synth.add_option("--blur", s->blur, "share of the frame time that the shutter is open; default 0")
-      ->check(CLI::Range(0.0, 1.0));
+  synth.add_option("--focal", s.focal, "focal length in pixels; default three quarters of the width")
+      ->check(between(10.0, 1e5));
+  synth.add_option("--noise", s.sensor.noise, "standard deviation in grey levels; default 1.5")
+      ->check(between(0.0, 100.0));
+  synth.add_option("--vignetting", s.sensor.vignetting, "darkening of the corners as a share; default 0.12")
+      ->check(between(0.0, 1.0));
+  synth.add_option("--blur", s.blur, "share of the frame time that the shutter is open; default 0")
+      ->check(between(0.0, 1.0));
   synth
-      .add_option("--exposure", s->sensor.exposure_swing,
+      .add_option("--exposure", s.sensor.exposure_swing,
                   "largest change of brightness, as a share; default 0")
-      ->check(CLI::Range(0.0, 0.9));
+      ->check(between(0.0, 0.9));
 }
 
 }  // namespace
 
 SynthReport synthesise(const SynthSettings& asked) {
   SynthSettings settings = asked;
+  const bool plain =
+      settings.house.world == synth::World::kManhattan || settings.house.world == synth::World::kTurned;
+  if (settings.house.rooms == 3 && !(plain && settings.house.path == synth::PathKind::kLoop)) {
+    throw io::Error(
+        "three rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
+  }
   if (settings.focal <= 0.0) settings.focal = 0.75 * settings.width;
   prepare_synth_folder(settings);
   const Interrupt interrupt;
@@ -177,16 +218,16 @@ void add_synth_command(CLI::App& app) {
       app.add_subcommand("synth", "Render a synthetic house with ground truth, TUM RGB-D layout");
   auto settings = std::make_shared<SynthSettings>();
   synth->add_option("DIR", settings->folder, "where the data set goes; made if it is not there")->required();
-  add_scene_options(*synth, settings);
-  add_camera_options(*synth, settings);
+  add_scene_options(*synth, *settings);
+  add_camera_options(*synth, *settings);
   synth->add_option("--image-format", settings->image_format, "jpg (quality 95) or png; default jpg")
-      ->check(CLI::IsMember({"jpg", "png"}));
+      ->check(CLI::IsMember({"jpg", "png"}).description(""));
   synth->add_flag_callback(
       "--no-depth", [settings] { settings->depth = false; }, "leave the depth images out");
   synth->add_flag_callback(
       "--no-normals", [settings] { settings->normals = false; }, "leave the normal images out");
   synth->add_option("--threads", settings->threads, "default one for each processor; the result is the same")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, 1024).description(""));
   synth->add_flag("--quiet", settings->quiet, "no progress");
   synth->callback([settings] { run_synth(*settings); });
 }

@@ -131,14 +131,13 @@ class DecoupledInitialisation {
   // Triangulates the inliers; the two frames become the first keyframes.
   [[nodiscard]] Reason build(TrackedFrame<S>& frame, const SO3<S>& R_10, const Vec3<S>& t_10, Map<S>& map) {
     const SE3<S> frame_from_reference{R_10, t_10};
-    const Pinhole<S>& k = frame.frame.pinhole;
     seeds_.clear();
     depths_.clear();
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (!inliers_[i]) continue;
-      const BearingMatch<S>& match = bearings_[i];
-      const std::array views{PointView<S>{SE3<S>(), match.ray0.template head<2>(), match.sigma},
-                             PointView<S>{frame_from_reference, match.ray1.template head<2>(), match.sigma}};
+      const BearingMatch<S>& bearing = bearings_[i];
+      const std::array views{PointView<S>{SE3<S>(), bearing.ray0.template head<2>(), bearing.sigma},
+                             PointView<S>{frame_from_reference, bearing.ray1.template head<2>(), bearing.sigma}};
       PointTriangulationOptions<S> options;
       options.min_parallax = min_parallax;
       const auto answer = triangulate_point<S>(views, options);

@@ -140,7 +140,7 @@ class NewLandmarks {
     const Keyframe<S>& b = map.keyframes[map.index(id_b)];
     const auto view = [](const Keyframe<S>& kf, std::int32_t feature) {
       const LineFeature<S>& f = kf.frame.lines[Map<S>::index(feature)];
-      return make_line_view<S>(kf.cam_from_world, kf.frame.pinhole, f.segment, f.sigma);
+      return make_line_view(kf.cam_from_world, kf.frame.pinhole, f.segment, f.sigma);
     };
     const std::array views{view(a, p.first), view(b, p.second)};
     const auto answer = triangulate_line<S>(views, line_options());

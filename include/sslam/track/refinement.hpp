@@ -11,7 +11,7 @@ namespace sslam {
 template <Scalar S>
 class LocalMapRefinement {
  public:
-  MatchOptions<S> match{.point_radius = 6, .line_radius = 10};
+  MatchOptions<S> match{.point_radius = 6, .line_radius = 10, .points = {}, .lines = {}};
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.3)};
   PoseRefinementOptions<S> solver;
   std::size_t max_keyframes = 20;
