@@ -1,0 +1,37 @@
+# `sslam synth`: what it says. What it writes is tested in synth_test.cpp.
+set(folder ${CMAKE_CURRENT_BINARY_DIR}/synth)
+file(REMOVE_RECURSE ${folder})
+file(MAKE_DIRECTORY ${folder}/foreign)
+file(WRITE ${folder}/foreign/rgb.txt "0.0 rgb/0.png\n")
+file(WRITE ${folder}/file "not a folder\n")
+set_source_files_properties(synth_test.cpp PROPERTIES COMPILE_DEFINITIONS "SSLAM_COMMAND=\"$<TARGET_FILE:sslam>\"")
+
+sslam_cli_test(NAME "synth tells how much and how fast" ARGS synth ${folder}/small --size 64x48 --frames 2 --texture poor
+               OUT "small: 2 frames, 0\\.0 m, .* frames/s\n$" FILE ${folder}/small/rgb.txt
+               REGEX "0\\.000000 rgb/000000\\.jpg\n0\\.033333 rgb/000001\\.jpg\n$")
+
+# sslam_synth_refuses(OPTION VALUE REGEX): exit code 2 and the option's name.
+function(sslam_synth_refuses option value regex)
+  sslam_cli_test(NAME "synth refuses ${option} ${value}" ARGS synth ${folder}/refused ${option} ${value} CODE 2
+                 ERR "^sslam: error: ${option}: .*${regex}.*\n$")
+endfunction()
+sslam_synth_refuses(--frames 0 "not in range")
+sslam_synth_refuses(--frames 1.5 "1.5")
+sslam_synth_refuses(--noise nan "expected a number between 0 and 100, found 'nan'")
+sslam_synth_refuses(--fps inf "expected a number between")
+sslam_synth_refuses(--blur 2 "between 0 and 1")
+sslam_synth_refuses(--size 640 "'640' is not a size such as 640x480")
+sslam_synth_refuses(--size 640x480x3 "is not a size")
+sslam_synth_refuses(--rooms 2 "2 not in")
+sslam_synth_refuses(--texture velvet "'velvet' is not one of mixed, poor, rich")
+sslam_synth_refuses(--seed -1 "'-1' is not a whole number")
+sslam_synth_refuses(--threads 0 "not in range")
+
+sslam_cli_test(NAME "synth below a file" ARGS synth ${folder}/file/below --frames 2 CODE 1
+               ERR "^sslam: error: .*file/below: cannot make this folder.*\n$")
+sslam_cli_test(NAME "synth into a file" ARGS synth ${folder}/file --frames 2 CODE 1
+               ERR "^sslam: error: .*file: cannot make this folder.*\n$")
+sslam_cli_test(NAME "synth over another data set" ARGS synth ${folder}/foreign --frames 2 CODE 1
+               ERR "^sslam: error: .*foreign: holds a data set that sslam synth did not make.*\n$")
+sslam_cli_test(NAME "synth of three oblique rooms" ARGS synth ${folder}/refused --rooms 3 --world oblique CODE 1
+               ERR "^sslam: error: three rooms have Manhattan walls.*\n$")
