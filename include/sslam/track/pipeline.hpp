@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "sslam/track/backfill.hpp"
 #include "sslam/track/concepts.hpp"
 #include "sslam/track/motion_model.hpp"
 #include "sslam/track/stage_timer.hpp"
@@ -29,6 +30,7 @@ class Pipeline {
   Refinement refinement;
   Keyframes keyframes;
   Mapping mapping;
+  Backfill<S> backfill;
   Timer timer;
 
   int relocalisation_tries = 3;  // keyframes to compare a lost frame with
@@ -71,11 +73,12 @@ class Pipeline {
     timer.end(Stage::kRotation);
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
-    if (result.reason != Reason::kFine) return;
+    if (result.reason != Reason::kFine) return backfill.keep(*current_);
     mapping.begin(map_, *current_, scene_depth());
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : map_.keyframes)
       log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
+    backfill.run(map_, fallback, refinement, log_);
     reference_ = map_.keyframes.back().id;
     frames_since_keyframe_ = 0;
     report(result, answer.trusted ? State::kManhattan : State::kFallback);
