@@ -33,8 +33,10 @@ int run_main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("sslam ") + SSLAM_VERSION);
   app.footer(kFooter);
   app.require_subcommand(1);
+  add_run_command(app);
   add_eval_command(app);
   add_synth_command(app);
+  add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam demo DIR`: renders a room, tracks it, compares with the truth. It is `synth`, `run` and `eval` in one.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/messages.hpp"
+#include "cli/run.hpp"
+#include "cli/synth.hpp"
+
+namespace sslam::cli {
+namespace {
+
+struct DemoSettings {
+  std::string folder = "demo";
+  int frames = 300;
+  std::uint64_t seed = 1;
+};
+
+void run_demo(const DemoSettings& settings) {
+  const std::filesystem::path folder = settings.folder;
+  SynthSettings synth;
+  synth.folder = (folder / "room").string();
+  synth.frames = settings.frames;
+  synth.house.seed = settings.seed;
+  const SynthReport rendered = synthesise(synth);
+  if (rendered.interrupted) return;
+  RunSettings track;
+  track.dataset = synth.folder;
+  track.out = (folder / "run").string();
+  track.seed = settings.seed;
+  run(track);
+  std::printf("\nLook at %s (the path seen from above) and open %s in MeshLab or Blender.\n",
+              (folder / "run" / "topview.svg").c_str(), (folder / "run" / "map.ply").c_str());
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("demo", "Render a room, track it, compare with the truth");
+  auto s = std::make_shared<DemoSettings>();
+  command->add_option("folder", s->folder, "Where the room and the results go")->capture_default_str();
+  command->add_option("--frames", s->frames, "Length of the sequence")->capture_default_str()->check(CLI::Range(10, 100000));
+  command->add_option("--seed", s->seed, "Of the room and of the run")->capture_default_str();
+  command->callback([s] { run_demo(*s); });
+}
+
+}  // namespace sslam::cli
