@@ -87,7 +87,7 @@ class HouseBuilder {
     std::vector<double> left, right, door;
     for (int i = 0; i < 3; ++i) {
       left.push_back(x);
-      right.push_back(x + random_.uniform(3.1, 3.6));
+      right.push_back(x + random_.uniform(3.6, 4.2));
       x = right.back() + kWallDepth;
       door.push_back(left[i] + (right[i] - left[i]) * random_.uniform(0.42, 0.58));
     }
@@ -95,7 +95,7 @@ class HouseBuilder {
     std::vector<Wall> corridor = walls_around(rectangle({0.0, 0.0}, {length, deep}), height);
     std::vector<Vec2<double>> there;
     for (int i = 0; i < 3; ++i) {
-      const double near = deep + kWallDepth, far = near + random_.uniform(3.3, 3.9);
+      const double near = deep + kWallDepth, far = near + random_.uniform(4.0, 4.8);
       std::vector<Wall> room = walls_around(rectangle({left[i], near}, {right[i], far}), height);
       constexpr double kHalfDoor = 0.5;
       room[0].openings.push_back(
@@ -120,7 +120,7 @@ class HouseBuilder {
 
   // From the corridor through the door, once around the room, and out again.
   static Outline visit(double door, double deep, double near, double middle, double far) {
-    const double centre = 0.5 * (near + far) + 0.1, r = 0.6;
+    const double centre = 0.5 * (near + far) + 0.1, r = 0.75;
     return {{door - 0.5, 0.55 * deep},  {door, deep - 0.4},       {door, near + 0.5},
             {middle + r, centre - 0.3}, {middle + r, centre + r}, {middle - r, centre + r},
             {middle - r, centre - 0.3}, {door, near + 0.5},       {door, deep - 0.4},

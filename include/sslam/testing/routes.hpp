@@ -103,7 +103,7 @@ template <class Values>
     for (int k = 0; k < steps; ++k) dense.push_back(way[i] + run * k / steps);
   }
   dense = smoothed(dense, 0.22 / kStep);
-  const std::size_t n = dense.size(), ahead = static_cast<std::size_t>(0.4 / kStep);
+  const std::size_t n = dense.size(), ahead = static_cast<std::size_t>(1.3 / kStep);
   std::vector<double> bend(n), yaw(n);  // the change of heading from point to point, and its sum
   const auto heading = [&](std::size_t i) {
     const Vec2<double> run = dense[(i + ahead) % n] - dense[i % n];

@@ -122,7 +122,7 @@ inline void add_wall(Scene& scene, const Wall& wall, const Paint& paint, const P
   add_skirting(scene, wall, decor.trim());
 }
 
-// Posters in thin frames, where no opening is.
+// Posters in thin frames, or plain boards, where no opening is.
 inline void hang_posters(Scene& scene, const Wall& wall, int wanted, Decor& decor) {
   std::vector<std::pair<double, double>> taken;
   for (const Opening& o : wall.openings) taken.emplace_back(o.left - 0.15, o.right + 0.15);
@@ -136,7 +136,8 @@ inline void hang_posters(Scene& scene, const Wall& wall, int wanted, Decor& deco
     });
     if (!free) continue;
     taken.emplace_back(left - 0.08, left + width + 0.08);
-    const Paint paint = decor.poster(static_cast<float>(width), static_cast<float>(height));
+    const Paint paint = decor.textured() ? decor.poster(static_cast<float>(width), static_cast<float>(height))
+                                         : decor.plain(0.55f, 0.95f);
     add_box(scene, wall.place, {left, 0.0, bottom}, {left + width, 0.012, bottom + height}, decor.trim(),
             Sides::kAll & ~Sides::kFront & ~Sides::kBack);
     add_box(scene, wall.place, {left, 0.0, bottom}, {left + width, 0.012, bottom + height}, paint,
