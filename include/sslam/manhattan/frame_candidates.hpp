@@ -8,7 +8,8 @@
 
 #include "sslam/core/inline_vector.hpp"
 #include "sslam/core/random.hpp"
-#include "sslam/manhattan/cube.hpp"
+#include "sslam/geometry/so3.hpp"
+#include "sslam/manhattan/best_distinct.hpp"
 #include "sslam/manhattan/frame_score.hpp"
 
 namespace sslam {
@@ -39,55 +40,15 @@ template <Scalar S>
   return SO3<S>::from_quaternion(p * std::sin(a), p * std::cos(a), q * std::sin(b), q * std::cos(b));
 }
 
-// The best frames offered so far, no two of them equivalent.
-template <Scalar S, std::size_t Capacity>
-class CandidateList {
- public:
-  struct Candidate {
-    SO3<S> frame;
-    S score = 0;
-  };
-
-  explicit CandidateList(S distinct) noexcept : distinct_(distinct) {}
-
-  void offer(const SO3<S>& frame, S score) noexcept {
-    if (items_.full() && !(score > items_[worst()].score)) return;
-    for (Candidate& item : items_) {
-      if (angle_between_frames(item.frame, frame) > distinct_) continue;
-      if (score > item.score) item = {frame, score};
-      return;
-    }
-    if (items_.full()) {
-      items_[worst()] = {frame, score};
-    } else {
-      (void)items_.push_back({frame, score});
-    }
-  }
-
-  [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
-  [[nodiscard]] const Candidate& operator[](std::size_t i) const noexcept { return items_[i]; }
-
- private:
-  [[nodiscard]] std::size_t worst() const noexcept {
-    std::size_t at = 0;
-    for (std::size_t i = 1; i < items_.size(); ++i) {
-      if (items_[i].score < items_[at].score) at = i;
-    }
-    return at;
-  }
-
-  S distinct_;
-  InlineVector<Candidate, Capacity> items_;
-};
-
+// Room for the peaks of the normals and as many vanishing points.
+inline constexpr std::size_t kMostDirections = 8;
 template <Scalar S>
-using DirectionList = InlineVector<Vec3<S>, 8>;
+using DirectionList = InlineVector<Vec3<S>, 2 * kMostDirections>;
 
-// Peaks of the normals over the whole half sphere, strongest first, at least `apart` (radians) from each
-// other.
+// Adds the peaks of the normals over the whole half sphere, at least `apart` (radians) from each other.
 template <Scalar S>
-[[nodiscard]] DirectionList<S> find_peaks(const DirectionView<S>& normals, S width, S apart,
-                                          Random& random) noexcept {
+void find_peaks(const DirectionView<S>& normals, S width, S apart, Random& random,
+                DirectionList<S>& peaks) noexcept {
   constexpr std::size_t kFrames = 128;  // 384 directions: about 7 degrees from one to the next
   constexpr int kClimbs = 6;
   std::array<Vec3<S>, 3 * kFrames> directions;
@@ -102,8 +63,7 @@ template <Scalar S>
   }
   const S chance = S(1.2) * width * width * total_weight<S>(normals);
   const S cosine = std::cos(apart);
-  DirectionList<S> peaks;
-  while (!peaks.full()) {
+  while (peaks.size() < kMostDirections) {
     const auto best = static_cast<std::size_t>(std::max_element(mass.begin(), mass.end()) - mass.begin());
     if (!(mass[best] > S(1.5) * chance)) break;
     Vec3<S> peak = directions[best];
@@ -124,35 +84,45 @@ template <Scalar S>
       if (closest > cosine) mass[i] = 0;
     }
   }
-  return peaks;
 }
 
-// Calls propose(frame) for every pair of peaks at a right angle (within 15 degrees), every peak with a
-// segment along a second axis, and random triples of segments: two that share an axis (their planes meet in
-// it), one on another.
-template <Scalar S, class Propose>
-void propose_frames(const DirectionList<S>& peaks, std::span<const LineVote<S>> lines, int triples,
-                    Random& random, Propose&& propose) noexcept {
-  SO3<S> frame;
-  for (std::size_t a = 0; a < peaks.size(); ++a) {
-    for (std::size_t b = a + 1; b < peaks.size(); ++b) {
-      if (std::abs(peaks[a].dot(peaks[b])) < S(0.26) && frame_from_two_axes(peaks[a], peaks[b], frame))
-        propose(frame);
-    }
-    for (const LineVote<S>& line : lines) {
-      if (frame_from_two_axes<S>(peaks[a], peaks[a].cross(line.plane_normal), frame)) propose(frame);
-    }
-  }
+// Adds the points where most segments meet, of random pairs of segments: directions that many great circles
+// share, at least `apart` (radians) from each other. `floor` (radians) is added to each segment's sigma.
+template <Scalar S>
+void find_vanishing_points(std::span<const LineVote<S>> lines, int pairs, S floor, S apart, Random& random,
+                           DirectionList<S>& directions) noexcept {
   const auto count = static_cast<std::uint32_t>(lines.size());
-  if (count < 3) return;
-  for (int i = 0; i < triples; ++i) {
+  if (count < 2) return;
+  const S cosine = std::cos(apart);
+  const auto same = [cosine](const Vec3<S>& a, const Vec3<S>& b) { return std::abs(a.dot(b)) > cosine; };
+  BestDistinct<Vec3<S>, S, kMostDirections, decltype(same)> points(same);
+  for (int i = 0; i < pairs; ++i) {
     const LineVote<S>& first = lines[random.below(count)];
     const LineVote<S>& second = lines[random.below(count)];
-    const Vec3<S> vanishing = first.plane_normal.cross(second.plane_normal);
-    if (vanishing.norm() < S(0.05))
-      continue;  // the same segment, or planes too close to meet in a sharp line
-    const Vec3<S> across = vanishing.cross(lines[random.below(count)].plane_normal);
-    if (frame_from_two_axes<S>(vanishing, across, frame)) propose(frame);
+    const Vec3<S> meeting = first.plane_normal.cross(second.plane_normal);
+    const S sine = meeting.norm();
+    if (!(sine > S(0.05))) continue;  // the same segment, or planes too close to meet in a sharp line
+    const Vec3<S> point = meeting / sine;
+    points.offer(point, score_direction(lines, point, floor));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) (void)directions.push_back(points[i].item);
+}
+
+// Calls propose(frame) for every pair of directions at a right angle (within 15 degrees), and for every
+// direction with a segment along a second axis.
+template <Scalar S, class Propose>
+void propose_frames(const DirectionList<S>& directions, std::span<const LineVote<S>> lines,
+                    Propose&& propose) noexcept {
+  SO3<S> frame;
+  for (std::size_t a = 0; a < directions.size(); ++a) {
+    for (std::size_t b = a + 1; b < directions.size(); ++b) {
+      const bool square = std::abs(directions[a].dot(directions[b])) < S(0.26);
+      if (square && frame_from_two_axes(directions[a], directions[b], frame)) propose(frame);
+    }
+    for (const LineVote<S>& line : lines) {
+      if (frame_from_two_axes<S>(directions[a], directions[a].cross(line.plane_normal), frame))
+        propose(frame);
+    }
   }
 }
 

@@ -11,25 +11,20 @@
 
 namespace sslam {
 
-// For normals or segments alone or together: `total` of all three axes, `gain[k]` lost without axis k.
-template <Scalar S>
-struct FrameScore {
-  S total = 0;
-  std::array<S, 3> gain{};
-};
-
 // The mixture of the three kernels of the given width (radians, each a density on the sphere) and clutter,
 // averaged over the normals and multiplied by `votes`, the number of independent directions they are taken
 // for. Over directions spread evenly, exp of one vote's score has mean 1, so exp(score) bounds the odds of
-// chance (Markov).
+// chance (Markov). `gain`, if not null, gets what is lost without each axis. With every > 1 only one block of
+// normals in `every` is read.
 template <Scalar S, Scalar V>
-[[nodiscard]] FrameScore<S> score_normals(const DirectionView<V>& normals, const Mat3<S>& cam_from_axes,
-                                          S width, S votes, std::size_t every = 1) noexcept {
+[[nodiscard]] S score_normals(const DirectionView<V>& normals, const Mat3<S>& cam_from_axes, S width, S votes,
+                              std::size_t every = 1, std::array<S, 3>* gain = nullptr) noexcept {
   constexpr V kShare = V(0.2);  // of each axis; the rest is clutter
   constexpr V kClutter = V(0.4);
   using Lanes = detail::DirectionLanes<V>;
-  FrameScore<S> score;
+  S score = 0;
   S weight = 0;
+  std::array<S, 3> lost{};
   const Mat3<V> axes = cam_from_axes.template cast<V>();
   // Kernel mass over the plane is 12 pi h^2 / 5, over the half sphere 2 pi for clutter.
   const V peak = kShare * static_cast<V>(S(5) / (S(6) * width * width));
@@ -52,14 +47,16 @@ template <Scalar S, Scalar V>
     const Lanes votes_here = block.weight * valid;
     weight += static_cast<S>(votes_here.sum());
     const Lanes logs = sum.log();
-    score.total += static_cast<S>((votes_here * logs).sum());
+    score += static_cast<S>((votes_here * logs).sum());
+    if (gain == nullptr) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      score.gain[k] += static_cast<S>((votes_here * (logs - (sum - part[k] + kShare).log())).sum());
+      lost[k] += static_cast<S>((votes_here * (logs - (sum - part[k] + kShare).log())).sum());
   }
   const S scale = weight > S(0) ? votes / weight : S(0);
-  score.total *= scale;
-  for (S& gain : score.gain) gain *= scale;
-  return score;
+  if (gain != nullptr) {
+    for (std::size_t k = 0; k < 3; ++k) (*gain)[k] = lost[k] * scale;
+  }
+  return score * scale;
 }
 
 // Segments with even shares of axes and clutter, each sigma widened by `floor` (radians).
@@ -72,6 +69,21 @@ template <Scalar S>
   for (const LineVote<S>& line : lines) {
     const detail::LineLikelihood<S> like(line, axes_from_cam, floor);
     total += std::log(shares.clutter() + shares.axis[0] * like.ratio.sum());
+  }
+  return total;
+}
+
+// The same for one direction alone: how many segments may run along it, against any direction.
+template <Scalar S>
+[[nodiscard]] S score_direction(std::span<const LineVote<S>> lines, const Vec3<S>& direction,
+                                S floor) noexcept {
+  constexpr S kShare = S(0.2);
+  S total = 0;
+  for (const LineVote<S>& line : lines) {
+    const S residual = line.plane_normal.dot(direction);
+    const S along = line.ray.dot(direction);
+    total +=
+        std::log(S(1) - kShare + kShare * detail::circle_ratio(line.sigma, residual, along, floor).ratio);
   }
   return total;
 }

@@ -42,12 +42,27 @@ struct LineRound {
 
 namespace detail {
 
-// Likelihood of each axis for one segment, over that of clutter. Through a given pixel clutter has any
-// direction with equal probability, density 1 / pi; a segment of axis a has the turn psi = r / sin(alpha),
-// alpha the angle from the ray to a, with r = n . a normal of variance sigma^2 sin^2(alpha) + floor^2.
+template <Scalar S>
+struct CircleRatio {
+  S inverse_variance;  // of the residual
+  S ratio;             // likelihood of the axis over that of clutter
+};
+
+// Through a given pixel clutter has any direction with equal probability, density 1 / pi; a segment of axis a
+// has the turn psi = r / sin(alpha), alpha the angle from the ray to a, with r = n . a normal of variance
+// sigma^2 sin^2(alpha) + floor^2. `along` is the cosine of alpha.
+template <Scalar S>
+[[nodiscard]] CircleRatio<S> circle_ratio(S sigma, S residual, S along, S floor) noexcept {
+  const S sine2 = std::max(S(1) - along * along, S(0));
+  const S inverse_variance = S(1) / (sigma * sigma * sine2 + floor * floor + S(1e-12));
+  const S density = std::sqrt(sine2 * inverse_variance * (std::numbers::pi_v<S> / S(2)));
+  return {inverse_variance, density * std::exp(S(-0.5) * residual * residual * inverse_variance)};
+}
+
+// One segment against three axes, in their frame.
 template <Scalar S>
 struct LineLikelihood {
-  Vec3<S> normal;  // of the interpretation plane, in the frame of the axes: its entries are the residuals r
+  Vec3<S> normal;  // of the interpretation plane: its entries are the residuals
   Vec3<S> inverse_variance;
   Vec3<S> ratio;
 
@@ -55,10 +70,9 @@ struct LineLikelihood {
       : normal(manhattan_from_cam * line.plane_normal) {
     const Vec3<S> ray = manhattan_from_cam * line.ray;
     for (int k = 0; k < 3; ++k) {
-      const S sine2 = std::max(S(1) - ray[k] * ray[k], S(0));
-      inverse_variance[k] = S(1) / (line.sigma * line.sigma * sine2 + floor * floor + S(1e-12));
-      const S density = std::sqrt(sine2 * inverse_variance[k] * (std::numbers::pi_v<S> / S(2)));
-      ratio[k] = density * std::exp(S(-0.5) * normal[k] * normal[k] * inverse_variance[k]);
+      const CircleRatio<S> circle = circle_ratio(line.sigma, normal[k], ray[k], floor);
+      inverse_variance[k] = circle.inverse_variance;
+      ratio[k] = circle.ratio;
     }
   }
 };

@@ -17,7 +17,9 @@ struct SearchOptions {
   S rank_width = radians(S(7));       // kernel width of normals while candidates are compared
   S rank_line_floor = radians(S(1));  // added to the segments' sigma meanwhile
   S distinct = radians(S(6));         // frames closer than this (over the 24 namings) are the same
-  int triples = 600;                  // random triples of segments
+  int pairs = 600;                    // random pairs of segments
+  S peaks_apart = radians(S(20));     // between two peaks of the normals
+  S points_apart = radians(S(8));     // between two vanishing points
   S min_log_likelihood = 20;          // of an accepted frame over no structure: see find_manhattan
   S min_axis_gain = 8;                // the same, of an axis over none in its place; two axes must have it
   S max_ambiguity = S(0.9);           // an accepted frame is this much better than the next one that differs
@@ -43,10 +45,6 @@ class NormalSample {
   [[nodiscard]] NormalView<S> view() const noexcept {
     return {x_.data(), y_.data(), z_.data(), weight_.data(), size_, 1};
   }
-  // Every `every`-th of them, without a copy.
-  [[nodiscard]] NormalView<S> thinned(std::size_t every) const noexcept {
-    return {x_.data(), y_.data(), z_.data(), weight_.data(), (size_ + every - 1) / every, every};
-  }
 
  private:
   std::size_t size_;
@@ -71,56 +69,47 @@ template <Scalar S, std::size_t Capacity>
   return chosen;
 }
 
-// A candidate after its own refinement, with the likelihood of normals (at the width they ask for) and
-// segments.
+// A refined candidate with the log-likelihood of normals (at the width they ask for) and segments.
 template <Scalar S>
-[[nodiscard]] FrameScore<S> score_estimate(const ManhattanEstimate<S>& estimate, const NormalView<S>& normals,
-                                           const ManhattanOptions<S>& options) noexcept {
+struct ScoredFrame {
+  ManhattanEstimate<S> estimate;
+  LineShares<S> shares;
+  S score = 0;
+  std::array<S, 3> gain{};  // lost without each axis
+};
+
+template <Scalar S, Scalar V>
+[[nodiscard]] ScoredFrame<S> refine_candidate(const FrameVotes<S, V>& votes, const NormalView<S>& sample,
+                                              const SO3<S>& start,
+                                              const ManhattanOptions<S>& options) noexcept {
+  const ManhattanPrior<S> prior{start};
+  const Mat3<S> information = prior.covariance.diagonal().cwiseInverse().asDiagonal();
+  ScoredFrame<S> found;
+  found.estimate = climb(votes, start, prior, information, options, found.shares);
   S scatter = 0;
   S share = 0;
-  for (const AxisSupport<S>& axis : estimate.axes) {
+  for (const AxisSupport<S>& axis : found.estimate.axes) {
     scatter += axis.normal_share * axis.normal_scatter;
     share += axis.normal_share;
   }
   const S wanted = share > S(0) ? options.kernel_per_scatter * scatter / share : options.widest_kernel;
   const S width = std::clamp(wanted, options.narrowest_kernel, options.widest_kernel);
-  FrameScore<S> score =
-      score_normals(normals, estimate.cam_from_manhattan.matrix(), width, options.normal_votes);
-  score.total += estimate.log_likelihood;
-  for (std::size_t k = 0; k < 3; ++k) score.gain[k] += estimate.axes[k].line_gain;
-  return score;
+  const Mat3<S> axes = found.estimate.cam_from_manhattan.matrix();
+  found.score = found.estimate.log_likelihood +
+                score_normals(sample, axes, width, options.normal_votes, 1, &found.gain);
+  for (std::size_t k = 0; k < 3; ++k) found.gain[k] += found.estimate.axes[k].line_gain;
+  return found;
 }
 
-// The best of the refined frames on all votes, and whether it may be believed.
-template <Scalar S, Scalar V, std::size_t Capacity>
-[[nodiscard]] ManhattanEstimate<S> accept_best(const NormalView<V>& normals, const NormalView<S>& sample,
-                                               std::span<const LineVote<S>> lines,
-                                               const CandidateList<S, Capacity>& refined,
-                                               const SearchOptions<S>& options,
-                                               std::span<std::int8_t> axis_of) noexcept {
-  if (refined.size() == 0) return refusal(Status::kNoConsensus, ManhattanPrior<S>{});
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < refined.size(); ++i) {
-    if (refined[i].score > refined[best].score) best = i;
-  }
-  S second = 0;
-  for (std::size_t i = 0; i < refined.size(); ++i) {
-    if (i != best) second = std::max(second, refined[i].score);
-  }
-  const ManhattanPrior<S> start{closest_naming(refined[best].frame, SO3<S>())};
-  ManhattanEstimate<S> estimate = track_manhattan<S, V>(normals, lines, start, options.rotation, axis_of);
-  const FrameScore<S> score = score_estimate(estimate, sample, options.rotation);
-  estimate.log_likelihood = score.total;
-  estimate.ambiguity = score.total > S(0) ? second / score.total : S(1);
-  if (!usable(estimate.status)) return estimate;
+// Whether the best frame may be believed.
+template <Scalar S>
+[[nodiscard]] Status judge(const ScoredFrame<S>& best, const SearchOptions<S>& options) noexcept {
+  if (!usable(best.estimate.status)) return best.estimate.status;
   int sure = 0;
-  for (const S gain : score.gain) sure += gain >= options.min_axis_gain ? 1 : 0;
-  if (score.total < options.min_log_likelihood || sure == 0 || estimate.ambiguity > options.max_ambiguity) {
-    estimate.status = Status::kNoConsensus;
-  } else if (sure == 1) {
-    estimate.status = Status::kDegenerate;
-  }
-  return estimate;
+  for (const S gain : best.gain) sure += gain >= options.min_axis_gain ? 1 : 0;
+  if (best.score < options.min_log_likelihood || sure == 0 || best.estimate.ambiguity > options.max_ambiguity)
+    return Status::kNoConsensus;
+  return sure == 1 ? Status::kDegenerate : Status::kOk;
 }
 
 }  // namespace detail
@@ -130,8 +119,9 @@ template <Scalar S, Scalar V, std::size_t Capacity>
 // A frame is accepted against chance: the likelihood ratio of votes without structure has mean 1 for any one
 // frame, and about exp(13) frames can be told apart, so a log-likelihood of 20 comes up by chance once in
 // exp(7) views. kTooFew: no votes. kDegenerate: only one axis stands out. kNoConsensus: no frame does, or two
-// that differ do equally well (see ambiguity). With these the rotation is the best guess, not to be used.
-// Entry i of `axis_of`, if it is not empty, becomes the axis of segment i, or -1.
+// that differ do equally well (see ambiguity). kNotFinite: a NaN or infinity in the votes. With these the
+// rotation is a guess, not to be used. Entry i of `axis_of`, if it is not empty, becomes the axis of segment
+// i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> find_manhattan(const NormalView<V>& normals,
                                                   std::span<const LineVote<S>> lines,
@@ -139,35 +129,46 @@ template <Scalar S, Scalar V = S>
                                                   std::span<std::int8_t> axis_of = {}) noexcept {
   constexpr std::size_t kRefined = 16;
   for (std::int8_t& axis : axis_of) axis = -1;
-  const S total = total_weight<S>(normals);
-  if (!std::isfinite(total) || !detail::all_finite(lines)) {
-    return detail::refusal(Status::kNotFinite, ManhattanPrior<S>{});
-  }
-  if (!(total > S(0)) && lines.size() < 3) return detail::refusal(Status::kTooFew, ManhattanPrior<S>{});
+  const detail::FrameVotes<S, V> votes(normals, lines);
+  if (!votes.finite()) return detail::refusal<S>(Status::kNotFinite);
+  if (!(votes.total > S(0)) && lines.size() < 3) return detail::refusal<S>(Status::kTooFew);
 
   const detail::NormalSample<S, 2048> sample(normals);
+  const NormalView<S> view = sample.view();
   const auto sharp = detail::sharpest_lines<S, 64>(lines);
   Random random(seed);
-  DirectionList<S> peaks;
-  if (total > S(0)) peaks = find_peaks(sample.view(), options.rank_width, radians(S(20)), random);
-  CandidateList<S, kRefined> candidates(options.distinct);
-  propose_frames<S>(peaks, sharp, options.triples, random, [&](const SO3<S>& frame) {
+  DirectionList<S> directions;
+  if (votes.total > S(0)) find_peaks(view, options.rank_width, options.peaks_apart, random, directions);
+  find_vanishing_points<S>(sharp, options.pairs, options.rank_line_floor, options.points_apart, random,
+                           directions);
+  const auto same = [&options](const SO3<S>& a, const SO3<S>& b) {
+    return angle_between_frames(a, b) < options.distinct;
+  };
+  using FrameList = BestDistinct<SO3<S>, S, kRefined, decltype(same)>;
+  FrameList candidates(same);
+  propose_frames<S>(directions, sharp, [&](const SO3<S>& frame) {
     const Mat3<S> axes = frame.matrix();
-    const S score =
-        score_normals(sample.thinned(4), axes, options.rank_width, options.rotation.normal_votes).total +
-        score_lines<S>(sharp, axes, options.rank_line_floor);
-    candidates.offer(frame, score);
+    const S by_normals = score_normals(view, axes, options.rank_width, options.rotation.normal_votes, 4);
+    candidates.offer(frame, by_normals + score_lines<S>(sharp, axes, options.rank_line_floor));
   });
+  if (candidates.size() == 0) return detail::refusal<S>(Status::kNoConsensus);
 
-  CandidateList<S, kRefined> refined(options.distinct);
+  FrameList refined(same);
+  const detail::FrameVotes<S, S> thin(view, lines);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const ManhattanPrior<S> start{candidates[i].frame};
-    const ManhattanEstimate<S> estimate =
-        track_manhattan<S, S>(sample.view(), lines, start, options.rotation);
-    refined.offer(estimate.cam_from_manhattan,
-                  detail::score_estimate(estimate, sample.view(), options.rotation).total);
+    const auto found = detail::refine_candidate(thin, view, candidates[i].item, options.rotation);
+    refined.offer(found.estimate.cam_from_manhattan, found.score);
   }
-  return detail::accept_best<S, V>(normals, sample.view(), lines, refined, options, axis_of);
+  const std::size_t top = refined.best();
+  const SO3<S> start = closest_naming(refined[top].item, SO3<S>());
+  detail::ScoredFrame<S> best = detail::refine_candidate(votes, view, start, options.rotation);
+  const S second = refined.second_best_score();
+  best.estimate.log_likelihood = best.score;
+  best.estimate.ambiguity = best.score > S(0) ? second / best.score : S(1);
+  best.estimate.status = detail::judge(best, options);
+  if (usable(best.estimate.status))
+    detail::assign_lines_of(best.estimate, lines, best.shares, options.rotation.line_floor, axis_of);
+  return best.estimate;
 }
 
 }  // namespace sslam

@@ -2,11 +2,11 @@
 // Where else a frame could start when the votes near the prior leave it loose: turns about the axes it has.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <span>
 
+#include "sslam/manhattan/cube.hpp"
 #include "sslam/manhattan/estimate.hpp"
 #include "sslam/manhattan/frame_score.hpp"
 
@@ -28,7 +28,7 @@ template <Scalar S, Scalar V>
   const auto posterior = [&](const SO3<S>& frame) {
     const Vec3<S> off = (frame * prior.cam_from_manhattan.inverse()).log();
     const Mat3<S> axes = frame.matrix();
-    return score_normals<S>(normals, axes, options.widest_kernel, options.normal_votes, every).total +
+    return score_normals<S>(normals, axes, options.widest_kernel, options.normal_votes, every) +
            score_lines(lines, axes, kTurn / S(4)) - S(0.5) * off.dot(prior_information * off);
   };
   SO3<S> best = loose.cam_from_manhattan;
@@ -45,7 +45,7 @@ template <Scalar S, Scalar V>
       best = turned;
     }
   }
-  return best;
+  return closest_naming(best, prior.cam_from_manhattan);
 }
 
 }  // namespace sslam
