@@ -1,204 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relative pose from matches alone, for views that are not far apart: five matches and a start near the
-// rotation that explains most bearings give hypotheses, found by iteration instead of a polynomial.
+// Relative pose from matches alone, for views that are not far apart: search, refinement, and checks against
+// a pure rotation and against the second answer of a flat scene.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 
-#include "sslam/core/random.hpp"
 #include "sslam/solver/plane_rival.hpp"
-#include "sslam/solver/relative_pose.hpp"
-#include "sslam/solver/rotation_from_bearings.hpp"
+#include "sslam/solver/relative_pose_search.hpp"
 
 namespace sslam {
-
-template <Scalar S>
-struct FindRelativePoseOptions {
-  RotationFromBearingsOptions<S> rotation{.min_inlier_share = S(0.1)};
-  RelativePoseOptions<S> refinement;
-  int max_samples = 300;    // sets of five matches tried at most
-  S confidence = S(0.999);  // that one of the sets is free of mismatches
-  S min_cost_gap = 15;      // between the two answers of a nearly flat scene, squared standard deviations
-};
-
-namespace detail {
-
-// Search over sets of five matches (iterative minimal solver: Rosten, Reitmayr and Drummond, ICRA 2010).
-template <Scalar S>
-class RelativePoseSearch {
- public:
-  static constexpr std::size_t kCapacity = 256;
-  static constexpr std::size_t kMinimal = 5;
-
-  RelativePoseSearch(std::span<const BearingMatch<S>> matches, const FindRelativePoseOptions<S>& options,
-                     Random& random) noexcept
-      : matches_(matches), options_(options), size_(std::min(matches.size(), kCapacity)) {
-    for (std::size_t slot = 0; slot < size_; ++slot) {
-      const std::size_t begin = slot * matches.size() / size_;
-      const std::size_t end = (slot + 1) * matches.size() / size_;
-      sample_[slot] =
-          static_cast<std::uint32_t>(begin + random.below(static_cast<std::uint32_t>(end - begin)));
-    }
-  }
-
-  // False when no set of five led anywhere.
-  [[nodiscard]] bool run(const SO3<S>& start, Random& random, RelativePose<S>& best) const noexcept {
-    S score = std::numeric_limits<S>::max();
-    int budget = options_.max_samples;
-    for (int k = 0; k < budget; ++k) {
-      std::array<std::uint32_t, kMinimal> set;
-      if (!draw(random, set)) continue;
-      // Half of the sets start from the best so far: its rotation is nearer than the first guess.
-      RelativePose<S> pose{k % 2 == 1 && score < std::numeric_limits<S>::max() ? best.R_10 : start, {}};
-      if (!start_direction(set, pose) || !solve(set, pose)) continue;
-      S trial = cost(pose, score);
-      if (!(trial < score)) continue;
-      improve(pose, trial);
-      score = trial;
-      best = pose;
-      budget = std::min(budget, samples_needed(best));
-    }
-    return score < std::numeric_limits<S>::max();
-  }
-
- private:
-  [[nodiscard]] bool draw(Random& random, std::array<std::uint32_t, kMinimal>& set) const noexcept {
-    for (std::size_t i = 0; i < kMinimal; ++i) {
-      set[i] = sample_[random.below(static_cast<std::uint32_t>(size_))];
-      for (std::size_t j = 0; j < i; ++j)
-        if (set[i] == set[j]) return false;
-    }
-    return true;
-  }
-
-  // The null vector of the five linear equations at the start rotation.
-  [[nodiscard]] bool start_direction(std::span<const std::uint32_t> set,
-                                     RelativePose<S>& pose) const noexcept {
-    const Mat3<S> R = pose.R_10.matrix();
-    FlowSystem<S> system;
-    Flow<S> flow;
-    for (const std::uint32_t i : set)
-      if (compensate(R, matches_[i], S(0), flow)) system.add(flow);
-    FlowSolution<S> solution;
-    if (!system.solve(solution)) return false;
-    pose.t_10 = solution.best;
-    return true;
-  }
-
-  // Gauss-Newton on the epipolar errors of the set, until they vanish; then the sign of t.
-  [[nodiscard]] bool solve(std::span<const std::uint32_t> set, RelativePose<S>& pose) const noexcept {
-    constexpr int kIterations = 8;
-    S error = std::numeric_limits<S>::max();
-    for (int iteration = 0; iteration < kIterations && error > S(0.3); ++iteration)
-      if (!step(linearize(set, pose, std::numeric_limits<S>::max()), pose) ||
-          !largest_error(set, pose, error))
-        return false;
-    if (!(error < 1)) return false;
-    const Mat3<S> R = pose.R_10.matrix();
-    S front = 0;
-    Flow<S> flow;
-    for (const std::uint32_t i : set)
-      if (compensate(R, matches_[i], S(0), flow))
-        front += std::clamp(epipolar_fit(flow, pose.t_10).along, S(-3), S(3));
-    if (front < 0) pose.t_10 = -pose.t_10;
-    return true;
-  }
-
-  [[nodiscard]] bool largest_error(std::span<const std::uint32_t> set, const RelativePose<S>& pose,
-                                   S& error) const noexcept {
-    const Mat3<S> R = pose.R_10.matrix();
-    error = 0;
-    for (const std::uint32_t i : set)
-      error = std::max(error, std::abs(epipolar_residual(R, pose.t_10, matches_[i])));
-    return std::isfinite(error);
-  }
-
-  [[nodiscard]] NormalEquations<S, 5> linearize(std::span<const std::uint32_t> set,
-                                                const RelativePose<S>& pose,
-                                                S max_squared_error) const noexcept {
-    const Mat3<S> R = pose.R_10.matrix();
-    const Mat<S, 3, 2> basis = tangent_basis(pose.t_10);
-    NormalEquations<S, 5> equations;
-    Flow<S> flow;
-    for (const std::uint32_t i : set) {
-      if (max_squared_error < std::numeric_limits<S>::max() &&
-          !(compensate(R, matches_[i], S(0), flow) && squared_error(flow, pose.t_10) < max_squared_error))
-        continue;
-      const EpipolarRow<S> row = epipolar_row(R, pose.t_10, matches_[i]);
-      Mat<S, 1, 5> j;
-      j << row.wrt_rotation.transpose(), row.wrt_translation.transpose() * basis;
-      equations.add(j, row.residual, S(1));
-    }
-    equations.complete();
-    return equations;
-  }
-
-  [[nodiscard]] static bool step(const NormalEquations<S, 5>& equations, RelativePose<S>& pose) noexcept {
-    constexpr S kDamping = S(1e-4);
-    constexpr S kLongestTurn = S(0.2), kLongestSwing = S(0.7);  // rad
-    Mat<S, 5, 5> H = equations.H;
-    H.diagonal() *= 1 + kDamping;
-    H.diagonal().array() += 1;  // an error of one standard deviation may stay for each rad
-    const Eigen::LLT<Mat<S, 5, 5>> factor(H);
-    if (factor.info() != Eigen::Success) return false;
-    Vec<S, 5> delta = -factor.solve(equations.g);
-    const S excess = std::max(delta.template head<3>().norm() / kLongestTurn,
-                              delta.template tail<2>().norm() / kLongestSwing);
-    if (!std::isfinite(excess)) return false;
-    if (excess > 1) delta /= excess;
-    pose = pose.retract(delta);
-    return true;
-  }
-
-  // Truncated squared error, summed over the sample; stops above `limit`.
-  [[nodiscard]] S cost(const RelativePose<S>& pose, S limit) const noexcept {
-    const Mat3<S> R = pose.R_10.matrix();
-    const S outlier = options_.refinement.max_error * options_.refinement.max_error;
-    S sum = 0;
-    Flow<S> flow;
-    for (std::size_t i = 0; i < size_ && sum < limit; ++i)
-      sum += compensate(R, matches_[sample_[i]], S(0), flow)
-                 ? std::min(squared_error(flow, pose.t_10), outlier)
-                 : outlier;
-    return sum;
-  }
-
-  void improve(RelativePose<S>& pose, S& score) const noexcept {
-    const S gate = options_.refinement.max_error * options_.refinement.max_error;
-    for (int round = 0; round < 4; ++round) {
-      RelativePose<S> better = pose;
-      if (!step(linearize({sample_.data(), size_}, pose, gate * 2), better)) return;
-      const S trial = cost(better, score);
-      if (!(trial < score)) return;
-      pose = better;
-      score = trial;
-    }
-  }
-
-  [[nodiscard]] int samples_needed(const RelativePose<S>& pose) const noexcept {
-    const Mat3<S> R = pose.R_10.matrix();
-    const S gate = options_.refinement.max_error * options_.refinement.max_error;
-    int good = 0;
-    Flow<S> flow;
-    for (std::size_t i = 0; i < size_; ++i)
-      good += compensate(R, matches_[sample_[i]], S(0), flow) && squared_error(flow, pose.t_10) < gate;
-    const S share = static_cast<S>(good) / static_cast<S>(size_);
-    const S clean = share * share * share * share * share / 2;  // every other clean set does not converge
-    const S needed = std::log1p(-options_.confidence) / std::log1p(-clean);
-    return needed < static_cast<S>(options_.max_samples) ? static_cast<int>(needed) + 1
-                                                         : options_.max_samples;
-  }
-
-  std::span<const BearingMatch<S>> matches_;
-  const FindRelativePoseOptions<S>& options_;
-  std::array<std::uint32_t, kCapacity> sample_;
-  std::size_t size_;
-};
-
-}  // namespace detail
 
 namespace detail {
 
@@ -211,24 +23,20 @@ void challenge(std::span<const BearingMatch<S>> matches, const FindRelativePoseO
   Vec3<S> normal;
   constexpr S kFlat = S(0.6);  // with fewer points in one plane, the others decide
   if (scene_plane(matches, pose, FlowGate<S>{.max_error = o.max_error}, normal) < kFlat) return;
+  RelativePose<S> rival;
+  if (!plane_rival(pose, normal, rival)) return;
   RelativePoseOptions<S> wide = o;
-  wide.start_sigma = std::max(o.start_sigma, S(0.02));  // rad: the rival start is right for small motion only
-  const S cost = truncated_cost(matches, pose, o);
-  S rival_cost = std::numeric_limits<S>::max();
-  for (const S sign : {S(1), S(-1)}) {
-    RelativePose<S> rival = plane_rival(pose, normal);
-    rival.t_10 *= sign;
-    const RelativePoseSummary<S> other = refine_relative_pose(matches, rival.R_10, rival.t_10, wide);
-    if (!usable(other.status) || rival.t_10.dot(pose.t_10) > S(0.98)) continue;
-    const S trial = truncated_cost(matches, rival, o);
-    if (trial < cost && trial < rival_cost) {
-      pose = rival;
-      summary = other;
-    }
-    rival_cost = std::min(rival_cost, trial);
+  wide.start_sigma = std::max(o.start_sigma, S(0.02));  // rad: the scene need not be flat all over
+  const RelativePoseSummary<S> other = refine_relative_pose(matches, rival.R_10, rival.t_10, wide);
+  if (other.status == Status::kDegenerate) summary.status = Status::kDegenerate;
+  constexpr S kSame = S(0.98);  // cosine
+  if (!usable(other.status) || rival.t_10.dot(pose.t_10) > kSame) return;
+  const S gain = truncated_cost(matches, pose, o) - truncated_cost(matches, rival, o);
+  if (gain > 0) {
+    pose = rival;
+    summary = other;
   }
-  if (usable(summary.status) && std::abs(cost - rival_cost) < options.min_cost_gap)
-    summary.status = Status::kDegenerate;
+  if (usable(summary.status) && std::abs(gain) < options.min_cost_gap) summary.status = Status::kDegenerate;
 }
 
 }  // namespace detail
@@ -251,7 +59,7 @@ template <Scalar S>
   if (static_cast<int>(matches.size()) < std::max(options.refinement.min_inliers, 5)) return summary;
 
   Random random(seed);
-  const detail::RelativePoseSearch<S> search(matches, options, random);
+  const RelativePoseSearch<S> search(matches, options, random);
   RelativePose<S> pose;
   if (!search.run(usable(turn.status) ? turn.R_10 : SO3<S>(), random, pose))
     return refuse(Status::kDegenerate);

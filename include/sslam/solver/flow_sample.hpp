@@ -10,8 +10,8 @@
 #include <limits>
 #include <span>
 
-#include "sslam/core/random.hpp"
 #include "sslam/solver/flow.hpp"
+#include "sslam/solver/stratified_sample.hpp"
 
 namespace sslam {
 
@@ -29,9 +29,7 @@ struct FlowSample {
              Random& random) noexcept {
     const std::size_t slots = std::min(matches.size(), std::size_t{kCapacity});
     for (std::size_t slot = 0; slot < slots; ++slot) {
-      const std::size_t begin = slot * matches.size() / slots;
-      const std::size_t end = (slot + 1) * matches.size() / slots;
-      const std::size_t i = begin + random.below(static_cast<std::uint32_t>(end - begin));
+      const std::size_t i = stratified_index(slot, slots, matches.size(), random);
       Flow<S>& flow = flows[static_cast<std::size_t>(size)];
       if (!compensate(R_10, matches[i], rotation_sigma, flow)) continue;
       if (flow.weight * flow.squared_length() > min_parallax * min_parallax)

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -44,11 +46,38 @@ template <Scalar S>
   return n.allFinite() && n.norm() > 0 ? explained / inliers : S(0);
 }
 
-// With H R^T = I + t n^T: the rival has translation and normal exchanged, I + t n^T ~ Exp(n x t) + n t^T,
-// exact for small motion (Longuet-Higgins 1986 has the finite case).
+// The other motion with the homography  H = R + t n^T R  of a plane in front of both cameras (Ma, Soatto,
+// Kosecka and Sastry, An Invitation to 3-D Vision, 2004, sec. 5.3). False when H is a rotation, which has no
+// other.
 template <Scalar S>
-[[nodiscard]] RelativePose<S> plane_rival(const RelativePose<S>& pose, const Vec3<S>& n) noexcept {
-  return {pose.R_10.retract(n.cross(pose.t_10)), n.normalized()};
+[[nodiscard]] bool plane_rival(const RelativePose<S>& pose, const Vec3<S>& n,
+                               RelativePose<S>& rival) noexcept {
+  const Mat3<S> R = pose.R_10.matrix();
+  Mat3<S> H = R + pose.t_10 * (R.transpose() * n).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(H.transpose() * H);
+  const Vec3<S> squares = eigen.eigenvalues() / eigen.eigenvalues()[1];  // of the singular values, ascending
+  H /= std::sqrt(eigen.eigenvalues()[1]);
+  const S below = std::max(1 - squares[0], S(0)), above = std::max(squares[2] - 1, S(0));
+  if (!(eigen.eigenvalues()[0] > 0) || !(below + above > S(1e-5))) return false;
+  const Vec3<S> v2 = eigen.eigenvectors().col(1);
+  S agreement = 2;
+  for (const S sign : {S(1), S(-1)}) {
+    const Vec3<S> u = (std::sqrt(below) * eigen.eigenvectors().col(2) +
+                       sign * std::sqrt(above) * eigen.eigenvectors().col(0)) /
+                      std::sqrt(below + above);
+    Vec3<S> normal = v2.cross(u);
+    Mat3<S> from, to;
+    from << v2, u, normal;
+    to << H * v2, H * u, (H * v2).cross(H * u);
+    const Mat3<S> turn = to * from.transpose();
+    if (normal.z() < 0) normal = -normal;
+    const Vec3<S> t = (H - turn) * normal;
+    const S length = t.norm();
+    if (!(length > 0) || !(t.dot(pose.t_10) / length < agreement)) continue;
+    agreement = t.dot(pose.t_10) / length;
+    rival = {SO3<S>::from_matrix(turn), t / length};
+  }
+  return agreement < 2 && rival.t_10.allFinite() && rival.R_10.matrix().allFinite();
 }
 
 // Truncated squared errors, summed over the matches, plus the prior of the options: what two poses are

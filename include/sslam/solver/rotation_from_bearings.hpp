@@ -11,10 +11,9 @@
 #include <limits>
 #include <span>
 
-#include "sslam/core/random.hpp"
 #include "sslam/core/status.hpp"
-#include "sslam/geometry/so3.hpp"
-#include "sslam/solver/epipolar.hpp"
+#include "sslam/solver/bearing_pair.hpp"
+#include "sslam/solver/stratified_sample.hpp"
 
 namespace sslam {
 
@@ -38,73 +37,6 @@ struct RotationFromBearings {
 
 namespace detail {
 
-// Unit bearings, and the inverse variance of either coordinate of their difference on the sphere.
-template <Scalar S>
-struct BearingPair {
-  Vec3<S> b0, b1;
-  S weight;
-
-  BearingPair() noexcept = default;
-  explicit BearingPair(const BearingMatch<S>& match) noexcept {
-    // The sphere shrinks areas of the image plane by the cube of the cosine, and so the noise.
-    const S cos0 = 1 / match.ray0.norm(), cos1 = 1 / match.ray1.norm();
-    b0 = match.ray0 * cos0;
-    b1 = match.ray1 * cos1;
-    weight = 1 / (match.sigma * match.sigma * (cos0 * cos0 * cos0 + cos1 * cos1 * cos1));
-  }
-  [[nodiscard]] S squared_error(const Mat3<S>& R_10) const noexcept {
-    return weight * (b1 - R_10 * b0).squaredNorm();
-  }
-};
-
-// Gauss-Newton on SO(3): with p = R b0, the error b1 - p has the derivative [p]x, and the normal matrix is
-// sum w (I - p p^T).
-template <Scalar S>
-struct BearingEquations {
-  Mat3<S> information = Mat3<S>::Zero();
-  Vec3<S> torque = Vec3<S>::Zero();
-  int count = 0;
-
-  void add(const BearingPair<S>& pair, const Mat3<S>& R_10, S max_squared_error) noexcept {
-    const S error = pair.squared_error(R_10);
-    if (!(error < max_squared_error)) return;
-    const S robust = error > S(2.25) ? S(1.5) / std::sqrt(error) : S(1);  // Huber
-    const Vec3<S> p = R_10 * pair.b0;
-    information += robust * pair.weight * (Mat3<S>::Identity() - p * p.transpose());
-    torque += robust * pair.weight * p.cross(pair.b1);
-    ++count;
-  }
-
-  [[nodiscard]] bool step(SO3<S>& R_10) const noexcept {
-    const Eigen::LLT<Mat3<S>> factor(information);
-    if (count < 2 || factor.info() != Eigen::Success) return false;
-    const Vec3<S> phi = factor.solve(torque);
-    if (!(phi.norm() < S(0.5))) return false;
-    R_10 = R_10.retract(phi);
-    return true;
-  }
-};
-
-// The rotation that carries one pair of directions to another (TRIAD, symmetric in the two). False when the
-// pairs are nearly parallel or do not include the same angle.
-template <Scalar S>
-[[nodiscard]] bool rotation_from_two(const BearingPair<S>& a, const BearingPair<S>& b, S max_error,
-                                     SO3<S>& R_10) noexcept {
-  const auto frame = [](const Vec3<S>& u, const Vec3<S>& v) {
-    Mat3<S> columns;
-    columns.col(0) = (u + v).normalized();
-    columns.col(1) = u.cross(v).normalized();
-    columns.col(2) = columns.col(0).cross(columns.col(1));
-    return columns;
-  };
-  const S chord0 = (a.b0 - b.b0).norm(), chord1 = (a.b1 - b.b1).norm();
-  constexpr S kLeastAngle = S(0.05);
-  if (std::min(chord0, chord1) < kLeastAngle || std::max(chord0, chord1) > S(1.9)) return false;
-  if (std::abs(chord0 - chord1) > max_error * std::sqrt(1 / a.weight + 1 / b.weight)) return false;
-  R_10 = SO3<S>::from_matrix(frame(a.b1, b.b1) * frame(a.b0, b.b0).transpose());
-  return true;
-}
-
 template <Scalar S>
 class RotationSearch {
  public:
@@ -114,9 +46,7 @@ class RotationSearch {
                  Random& random) noexcept
       : options_(options), size_(std::min(matches.size(), kCapacity)) {
     for (std::size_t slot = 0; slot < size_; ++slot) {
-      const std::size_t begin = slot * matches.size() / size_;
-      const std::size_t end = (slot + 1) * matches.size() / size_;
-      pairs_[slot] = BearingPair<S>(matches[begin + random.below(static_cast<std::uint32_t>(end - begin))]);
+      pairs_[slot] = BearingPair<S>(matches[stratified_index(slot, size_, matches.size(), random)]);
     }
   }
 
@@ -205,11 +135,11 @@ template <Scalar S>
   Random random(seed);
   SO3<S> R = detail::RotationSearch<S>(matches, options, random).run(random);
   const S gate = options.max_error * options.max_error;
-  detail::BearingEquations<S> sum;
+  BearingEquations<S> sum;
   for (int iteration = 0; iteration < 3; ++iteration) {
     const Mat3<S> matrix = R.matrix();
     sum = {};
-    for (const BearingMatch<S>& match : matches) sum.add(detail::BearingPair<S>(match), matrix, gate);
+    for (const BearingMatch<S>& match : matches) sum.add(BearingPair<S>(match), matrix, gate);
     if (!sum.step(R)) break;
   }
   result.R_10 = R;
@@ -226,7 +156,7 @@ template <Scalar S>
   if (inliers.size() != matches.size()) return result;
   const Mat3<S> matrix = R.matrix();
   for (std::size_t i = 0; i < matches.size(); ++i)
-    inliers[i] = detail::BearingPair<S>(matches[i]).squared_error(matrix) < gate;
+    inliers[i] = BearingPair<S>(matches[i]).squared_error(matrix) < gate;
   return result;
 }
 
