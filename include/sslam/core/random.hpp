@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "sslam/core/types.hpp"
 
@@ -29,7 +30,10 @@ class Random {
   // Uniform in [low, high).
   template <Scalar S>
   [[nodiscard]] constexpr S uniform(S low, S high) noexcept {
-    return low + (high - low) * static_cast<S>(static_cast<double>(next() >> 11) * 0x1.0p-53);
+    // As many bits as S holds: one more would round up to `high` at times.
+    constexpr int kBits = std::numeric_limits<S>::digits;
+    constexpr S kUnit = S(1) / static_cast<S>(std::uint64_t{1} << kBits);
+    return low + (high - low) * (static_cast<S>(next() >> (64 - kBits)) * kUnit);
   }
 
  private:
