@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sslam demo DIR`: renders a room, tracks it, compares with the truth. It is `synth`, `run` and `eval` in one.
+// `sslam demo DIR`: renders a room, tracks it, compares with the truth. It is `synth`, `run` and `eval` in
+// one.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -43,7 +44,9 @@ void add_demo_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("demo", "Render a room, track it, compare with the truth");
   auto s = std::make_shared<DemoSettings>();
   command->add_option("folder", s->folder, "Where the room and the results go")->capture_default_str();
-  command->add_option("--frames", s->frames, "Length of the sequence")->capture_default_str()->check(CLI::Range(10, 100000));
+  command->add_option("--frames", s->frames, "Length of the sequence")
+      ->capture_default_str()
+      ->check(CLI::Range(10, 100000));
   command->add_option("--seed", s->seed, "Of the room and of the run")->capture_default_str();
   command->callback([s] { run_demo(*s); });
 }

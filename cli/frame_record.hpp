@@ -22,7 +22,8 @@ class WallTimer {
   }
   void end(Stage stage) noexcept {
     const auto now = Clock::now();
-    milliseconds[static_cast<std::size_t>(stage)] += std::chrono::duration<double, std::milli>(now - last_).count();
+    milliseconds[static_cast<std::size_t>(stage)] +=
+        std::chrono::duration<double, std::milli>(now - last_).count();
     last_ = now;
   }
   [[nodiscard]] double total() const noexcept {
@@ -39,12 +40,12 @@ static_assert(StageTimer<WallTimer>);
 
 struct FrameRecord {
   TrackResult<double> result;
-  std::string image;                                // file name, for people
-  int points = 0, lines = 0, normals = 0;           // features found
-  std::array<double, kStageCount> stage_ms{};       // of the tracker's stages
+  std::string image;                           // file name, for people
+  int points = 0, lines = 0, normals = 0;      // features found
+  std::array<double, kStageCount> stage_ms{};  // of the tracker's stages
   double points_ms = 0, lines_ms = 0, normals_ms = 0;
-  double extraction_ms = 0;                         // wall clock of the front end
-  double tracking_ms = 0;                           // wall clock of the tracker
+  double extraction_ms = 0;  // wall clock of the front end
+  double tracking_ms = 0;    // wall clock of the tracker
 
   [[nodiscard]] double frame_ms() const noexcept { return extraction_ms + tracking_ms; }
 };
@@ -71,7 +72,7 @@ struct RunOutcome {
   std::vector<MapLine> lines;
   std::vector<ParameterValue> parameters;
   std::vector<std::string> warnings;
-  double wall_seconds = 0;    // of the whole loop
+  double wall_seconds = 0;  // of the whole loop
   bool interrupted = false;
 };
 

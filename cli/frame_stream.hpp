@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames on their way from the disk to the tracker: a thread decodes and extracts ahead, the tracker takes in order.
+// Frames on their way from the disk to the tracker: a thread decodes and extracts ahead, the tracker takes in
+// order.
 #pragma once
 
 #include <condition_variable>

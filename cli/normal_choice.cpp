@@ -20,7 +20,8 @@ NormalChoice choose_normals(const std::string& text) {
     files.options.folder = text.substr(kFiles.size());
     std::error_code ignored;
     if (!std::filesystem::is_directory(files.options.folder, ignored))
-      throw io::Error("--normals " + text + ": no such folder; files:DIR wants a folder with one image of normals a frame");
+      throw io::Error("--normals " + text +
+                      ": no such folder; files:DIR wants a folder with one image of normals a frame");
     choice.source = std::move(files);
     return choice;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every parameter of a pipeline by name, with what it means: for --set, for --list-parameters and for metrics.json.
+// Every parameter of a pipeline by name, with what it means: for --set, for --list-parameters and for
+// metrics.json.
 #pragma once
 
 #include <cstdint>
@@ -11,59 +12,89 @@ namespace sslam::cli {
 
 enum class Unit { kNumber, kPixels, kDegrees };  // kDegrees: radians inside, degrees outside
 
-// visit(name, value, unit, meaning) for the parameters that decide how a pipeline behaves. A stage's null model has
-// none, so what is visited depends on the preset.
+// visit(name, value, unit, meaning) for the parameters that decide how a pipeline behaves. A stage's null
+// model has none, so what is visited depends on the preset.
 template <class Pipeline, class Visit>
 void visit_parameters(Pipeline& p, Visit visit) {
   if constexpr (requires { p.rotation.search; }) {
-    visit("rotation.squareness", p.rotation.squareness, Unit::kDegrees, "how far walls and edges stand from right angles");
-    visit("rotation.max_sigma", p.rotation.max_sigma, Unit::kDegrees, "largest standard deviation of a rotation that is trusted");
-    visit("rotation.agreement", p.rotation.agreement, Unit::kDegrees, "between sightings of a Manhattan frame found late");
-    visit("rotation.confirmations", p.rotation.confirmations, Unit::kNumber, "sightings in a row that make one believed");
-    visit("rotation.min_normal_share", p.rotation.search.rotation.min_normal_share, Unit::kNumber, "share of the normals that shows an axis");
-    visit("rotation.widest_kernel", p.rotation.search.rotation.widest_kernel, Unit::kDegrees, "first kernel width of the mean-shift");
-    visit("rotation.narrowest_kernel", p.rotation.search.rotation.narrowest_kernel, Unit::kDegrees, "last kernel width");
+    visit("rotation.squareness", p.rotation.squareness, Unit::kDegrees,
+          "how far walls and edges stand from right angles");
+    visit("rotation.max_sigma", p.rotation.max_sigma, Unit::kDegrees,
+          "largest standard deviation of a rotation that is trusted");
+    visit("rotation.agreement", p.rotation.agreement, Unit::kDegrees,
+          "between sightings of a Manhattan frame found late");
+    visit("rotation.confirmations", p.rotation.confirmations, Unit::kNumber,
+          "sightings in a row that make one believed");
+    visit("rotation.min_normal_share", p.rotation.search.rotation.min_normal_share, Unit::kNumber,
+          "share of the normals that shows an axis");
+    visit("rotation.widest_kernel", p.rotation.search.rotation.widest_kernel, Unit::kDegrees,
+          "first kernel width of the mean-shift");
+    visit("rotation.narrowest_kernel", p.rotation.search.rotation.narrowest_kernel, Unit::kDegrees,
+          "last kernel width");
   }
   if constexpr (requires { p.initialisation.min_points; }) {
-    visit("initialisation.min_points", p.initialisation.min_points, Unit::kNumber, "landmarks of the first map");
-    visit("initialisation.min_matches", p.initialisation.min_matches, Unit::kNumber, "matches with the reference frame");
-    visit("initialisation.min_parallax", p.initialisation.min_parallax, Unit::kDegrees, "of a landmark that counts");
-    visit("initialisation.max_direction_sigma", p.initialisation.max_direction_sigma, Unit::kDegrees, "standard deviation of the direction of the translation");
-    visit("initialisation.search_radius", p.initialisation.search_radius, Unit::kPixels, "around where a feature was last seen");
+    visit("initialisation.min_points", p.initialisation.min_points, Unit::kNumber,
+          "landmarks of the first map");
+    visit("initialisation.min_matches", p.initialisation.min_matches, Unit::kNumber,
+          "matches with the reference frame");
+    visit("initialisation.min_parallax", p.initialisation.min_parallax, Unit::kDegrees,
+          "of a landmark that counts");
+    visit("initialisation.max_direction_sigma", p.initialisation.max_direction_sigma, Unit::kDegrees,
+          "standard deviation of the direction of the translation");
+    visit("initialisation.search_radius", p.initialisation.search_radius, Unit::kPixels,
+          "around where a feature was last seen");
   }
   if constexpr (requires { p.translation.match; }) {
-    visit("translation.point_radius", p.translation.match.point_radius, Unit::kPixels, "search window around a predicted point");
-    visit("translation.line_radius", p.translation.match.line_radius, Unit::kPixels, "search band around a predicted line");
-    visit("translation.min_inliers", p.translation.acceptance.min_inliers, Unit::kNumber, "points plus lines");
-    visit("translation.min_inlier_share", p.translation.acceptance.min_inlier_share, Unit::kNumber, "of all matches");
+    visit("translation.point_radius", p.translation.match.point_radius, Unit::kPixels,
+          "search window around a predicted point");
+    visit("translation.line_radius", p.translation.match.line_radius, Unit::kPixels,
+          "search band around a predicted line");
+    visit("translation.min_inliers", p.translation.acceptance.min_inliers, Unit::kNumber,
+          "points plus lines");
+    visit("translation.min_inlier_share", p.translation.acceptance.min_inlier_share, Unit::kNumber,
+          "of all matches");
   }
   if constexpr (requires { p.fallback.match; }) {
-    visit("fallback.point_radius", p.fallback.match.point_radius, Unit::kPixels, "search window around a predicted point");
-    visit("fallback.line_radius", p.fallback.match.line_radius, Unit::kPixels, "search band around a predicted line");
+    visit("fallback.point_radius", p.fallback.match.point_radius, Unit::kPixels,
+          "search window around a predicted point");
+    visit("fallback.line_radius", p.fallback.match.line_radius, Unit::kPixels,
+          "search band around a predicted line");
     visit("fallback.widening", p.fallback.widening, Unit::kNumber, "of the windows at the second try");
     visit("fallback.min_inliers", p.fallback.acceptance.min_inliers, Unit::kNumber, "points plus lines");
-    visit("fallback.min_inlier_share", p.fallback.acceptance.min_inlier_share, Unit::kNumber, "of all matches");
+    visit("fallback.min_inlier_share", p.fallback.acceptance.min_inlier_share, Unit::kNumber,
+          "of all matches");
   }
   if constexpr (requires { p.refinement.match; }) {
-    visit("refinement.point_radius", p.refinement.match.point_radius, Unit::kPixels, "search window around a predicted point");
-    visit("refinement.line_radius", p.refinement.match.line_radius, Unit::kPixels, "search band around a predicted line");
+    visit("refinement.point_radius", p.refinement.match.point_radius, Unit::kPixels,
+          "search window around a predicted point");
+    visit("refinement.line_radius", p.refinement.match.line_radius, Unit::kPixels,
+          "search band around a predicted line");
     visit("refinement.max_keyframes", p.refinement.max_keyframes, Unit::kNumber, "of the local map");
     visit("refinement.min_inliers", p.refinement.acceptance.min_inliers, Unit::kNumber, "points plus lines");
-    visit("refinement.min_inlier_share", p.refinement.acceptance.min_inlier_share, Unit::kNumber, "of all matches");
-    visit("refinement.max_position_sigma", p.refinement.acceptance.max_position_sigma, Unit::kNumber, "of the camera's place, over the median scene depth");
-    visit("refinement.max_rotation_sigma", p.refinement.acceptance.max_rotation_sigma, Unit::kDegrees, "of the camera's rotation");
+    visit("refinement.min_inlier_share", p.refinement.acceptance.min_inlier_share, Unit::kNumber,
+          "of all matches");
+    visit("refinement.max_position_sigma", p.refinement.acceptance.max_position_sigma, Unit::kNumber,
+          "of the camera's place, over the median scene depth");
+    visit("refinement.max_rotation_sigma", p.refinement.acceptance.max_rotation_sigma, Unit::kDegrees,
+          "of the camera's rotation");
   }
   if constexpr (requires { p.keyframes.min_shared; }) {
-    visit("keyframes.min_shared", p.keyframes.min_shared, Unit::kNumber, "share of the reference keyframe's landmarks still seen");
-    visit("keyframes.max_baseline", p.keyframes.max_baseline, Unit::kNumber, "distance to the reference over the median scene depth");
+    visit("keyframes.min_shared", p.keyframes.min_shared, Unit::kNumber,
+          "share of the reference keyframe's landmarks still seen");
+    visit("keyframes.max_baseline", p.keyframes.max_baseline, Unit::kNumber,
+          "distance to the reference over the median scene depth");
     visit("keyframes.max_turn", p.keyframes.max_turn, Unit::kDegrees, "rotation against the reference");
     visit("keyframes.min_gap", p.keyframes.min_gap, Unit::kNumber, "frames between keyframes");
   }
   if constexpr (requires { p.mapping.creation; }) {
-    visit("mapping.min_point_parallax", p.mapping.creation.options.min_point_parallax, Unit::kDegrees, "of a new point");
-    visit("mapping.min_line_parallax", p.mapping.creation.options.min_line_parallax, Unit::kDegrees, "between the planes of a new line");
-    visit("mapping.max_neighbours", p.mapping.creation.options.max_neighbours, Unit::kNumber, "keyframes to triangulate with");
-    visit("mapping.probation", p.mapping.culling.probation, Unit::kNumber, "keyframes for which a landmark is young");
+    visit("mapping.min_point_parallax", p.mapping.creation.options.min_point_parallax, Unit::kDegrees,
+          "of a new point");
+    visit("mapping.min_line_parallax", p.mapping.creation.options.min_line_parallax, Unit::kDegrees,
+          "between the planes of a new line");
+    visit("mapping.max_neighbours", p.mapping.creation.options.max_neighbours, Unit::kNumber,
+          "keyframes to triangulate with");
+    visit("mapping.probation", p.mapping.culling.probation, Unit::kNumber,
+          "keyframes for which a landmark is young");
   }
 }
 

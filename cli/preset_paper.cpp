@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cli/kernels.hpp"
 #include "cli/presets.hpp"
-#include "cli/stages.hpp"
 #include "cli/track_sequence.hpp"
 
 namespace sslam::cli {
 
 RunOutcome run_paper(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
-  presets::Structure<double, NoOptimiser<double>, WallTimer> pipeline;
+  presets::Paper<double, WallTimer> pipeline;
   return track_sequence(pipeline, stream, settings, progress);
 }
 

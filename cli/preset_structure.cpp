@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cli/kernels.hpp"
 #include "cli/presets.hpp"
-#include "cli/stages.hpp"
 #include "cli/track_sequence.hpp"
 
 namespace sslam::cli {
 namespace {
 
-using Pipeline = presets::Structure<double, LocalBundleAdjustment, WallTimer>;
+using Pipeline = presets::Structure<double, WallTimer>;
 
 }  // namespace
 

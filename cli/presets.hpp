@@ -12,11 +12,12 @@
 
 namespace sslam::cli {
 
-[[nodiscard]] RunOutcome run_structure(FrameStream&, const TrackSettings&, Progress&);  // preset_structure.cpp
-[[nodiscard]] RunOutcome run_lines(FrameStream&, const TrackSettings&, Progress&);      // preset_structure.cpp
-[[nodiscard]] RunOutcome run_paper(FrameStream&, const TrackSettings&, Progress&);      // preset_paper.cpp
-[[nodiscard]] RunOutcome run_features(FrameStream&, const TrackSettings&, Progress&);   // preset_features.cpp
-[[nodiscard]] RunOutcome run_odometry(FrameStream&, const TrackSettings&, Progress&);   // preset_odometry.cpp
+[[nodiscard]] RunOutcome run_structure(FrameStream&, const TrackSettings&,
+                                       Progress&);                                     // preset_structure.cpp
+[[nodiscard]] RunOutcome run_lines(FrameStream&, const TrackSettings&, Progress&);     // preset_structure.cpp
+[[nodiscard]] RunOutcome run_paper(FrameStream&, const TrackSettings&, Progress&);     // preset_paper.cpp
+[[nodiscard]] RunOutcome run_features(FrameStream&, const TrackSettings&, Progress&);  // preset_features.cpp
+[[nodiscard]] RunOutcome run_odometry(FrameStream&, const TrackSettings&, Progress&);  // preset_odometry.cpp
 
 struct Preset {
   std::string_view name;

@@ -29,9 +29,9 @@ void Progress::print(const FrameRecord& frame) const {
   const std::size_t filled = total_ > 0 ? std::min(kWidth, done_ * kWidth / total_) : kWidth;
   const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
   const char* const reason = name(frame.result.reason);
-  std::fprintf(stderr, "%s%zu/%zu [%s] %5.1f frames/s  %-12s %3d points %3d lines  %s%s", terminal_ ? "\r" : "", done_,
-               total_, bar.c_str(), rate, name(frame.result.state), frame.result.point_inliers,
-               frame.result.line_inliers, reason, terminal_ ? "\033[K" : "\n");
+  std::fprintf(stderr, "%s%zu/%zu [%s] %5.1f frames/s  %-12s %3d points %3d lines  %s%s",
+               terminal_ ? "\r" : "", done_, total_, bar.c_str(), rate, name(frame.result.state),
+               frame.result.point_inliers, frame.result.line_inliers, reason, terminal_ ? "\033[K" : "\n");
   std::fflush(stderr);
 }
 

@@ -29,7 +29,8 @@ const Preset& find_preset(const std::string& wanted) {
 // "stage.parameter=value"
 ParameterValue parse_override(const std::string& text) {
   const auto equals = text.find('=');
-  const auto value = equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
+  const auto value =
+      equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
   if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
   return {text.substr(0, equals), *value};
 }
@@ -62,7 +63,8 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
   if (settings.normals != "depth") return;
   const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
                                [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
-  if (!any) throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
+  if (!any)
+    throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
   if (!(depth_factor > 0))
     throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
@@ -96,7 +98,8 @@ void run(const RunSettings& settings) {
     throw Stop{ExitCode::kInterrupted};
   }
   if (outcome.trajectory.empty()) {
-    const char* const reason = outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
+    const char* const reason =
+        outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
     throw io::Error(settings.dataset + ": no frame was tracked; last reason: " + reason);
   }
 }
@@ -104,22 +107,36 @@ void run(const RunSettings& settings) {
 void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Track a sequence: trajectory, map, figures and pictures");
   auto s = std::make_shared<RunSettings>();
-  command->add_option("dataset", s->dataset,
-                      "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
+  command
+      ->add_option(
+          "dataset", s->dataset,
+          "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
       ->required();
-  command->add_option("--camera", s->camera, "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names());
-  command->add_option("--normals", s->normals, "Surface normals: none (lines alone), depth, or files:DIR")->capture_default_str();
+  command->add_option("--camera", s->camera,
+                      "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names());
+  command->add_option("--normals", s->normals, "Surface normals: none (lines alone), depth, or files:DIR")
+      ->capture_default_str();
   std::string presets = "What the pipeline is made of:";
-  for (const Preset& preset : kPresets) presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
+  for (const Preset& preset : kPresets)
+    presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
   command->add_option("--preset", s->preset, presets)->capture_default_str();
   command->add_option("--out", s->out, "Folder for the results")->capture_default_str();
-  command->add_option("--start", s->slice.start, "First frame")->capture_default_str()->check(CLI::NonNegativeNumber);
-  command->add_option("--end", s->slice.end, "Frame to stop before; negative: the last")->capture_default_str();
-  command->add_option("--stride", s->slice.stride, "Take every n-th frame")->capture_default_str()->check(CLI::PositiveNumber);
-  command->add_option("--set", s->set, "stage.parameter=value, as in metrics.json; angles in degrees; may be repeated");
+  command->add_option("--start", s->slice.start, "First frame")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--end", s->slice.end, "Frame to stop before; negative: the last")
+      ->capture_default_str();
+  command->add_option("--stride", s->slice.stride, "Take every n-th frame")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--set", s->set,
+                      "stage.parameter=value, as in metrics.json; angles in degrees; may be repeated");
   command->add_option("--seed", s->seed, "Of everything random")->capture_default_str();
-  command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")->capture_default_str()->check(CLI::PositiveNumber);
-  command->add_flag_callback("--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
+  command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag_callback(
+      "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
   command->set_config("--config", "", "Options from a TOML file");
   command->callback([s] { run(*s); });
 }

@@ -13,14 +13,14 @@ namespace sslam::cli {
 
 struct RunSettings {
   std::string dataset;
-  std::string camera;              // file or name; empty: from the dataset
+  std::string camera;  // file or name; empty: from the dataset
   std::string normals = "none";
   std::string preset = "structure";
   std::string out = "out";
   io::Slice slice;
-  std::vector<std::string> set;    // stage.parameter=value
+  std::vector<std::string> set;  // stage.parameter=value
   std::uint64_t seed = 1;
-  double frame_rate = 30;          // frames a second, for images without stamps
+  double frame_rate = 30;  // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
 };
 

@@ -22,19 +22,21 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 void write_frames(const fs::path& path, const RunOutcome& outcome) {
-  std::vector<std::string> columns{"index", "stamp", "image", "state", "reason", "points", "lines", "normals",
-                                   "point_inliers", "line_inliers", "axes_seen", "keyframe", "points_ms", "lines_ms",
-                                   "normals_ms", "extraction_ms"};
+  std::vector<std::string> columns{"index",         "stamp",        "image",      "state",
+                                   "reason",        "points",       "lines",      "normals",
+                                   "point_inliers", "line_inliers", "axes_seen",  "keyframe",
+                                   "points_ms",     "lines_ms",     "normals_ms", "extraction_ms"};
   for (int s = 0; s < kStageCount; ++s) columns.push_back(std::string(name(static_cast<Stage>(s))) + "_ms");
   columns.insert(columns.end(), {"tracking_ms", "frame_ms"});
   io::CsvWriter csv(path, columns);
   const auto ms = [](double value) { return std::round(value * 1e3) / 1e3; };
   for (const FrameRecord& f : outcome.frames) {
     const auto& r = f.result;
-    csv.row(r.index, r.stamp, f.image, std::string(name(r.state)), std::string(name(r.reason)), f.points, f.lines,
-            f.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, ms(f.points_ms), ms(f.lines_ms),
-            ms(f.normals_ms), ms(f.extraction_ms), ms(f.stage_ms[0]), ms(f.stage_ms[1]), ms(f.stage_ms[2]),
-            ms(f.stage_ms[3]), ms(f.stage_ms[4]), ms(f.stage_ms[5]), ms(f.tracking_ms), ms(f.frame_ms()));
+    csv.row(r.index, r.stamp, f.image, std::string(name(r.state)), std::string(name(r.reason)), f.points,
+            f.lines, f.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, ms(f.points_ms),
+            ms(f.lines_ms), ms(f.normals_ms), ms(f.extraction_ms), ms(f.stage_ms[0]), ms(f.stage_ms[1]),
+            ms(f.stage_ms[2]), ms(f.stage_ms[3]), ms(f.stage_ms[4]), ms(f.stage_ms[5]), ms(f.tracking_ms),
+            ms(f.frame_ms()));
   }
   static_assert(kStageCount == 6, "one cell for each stage");
   csv.commit();
@@ -47,7 +49,8 @@ void write_map_file(const fs::path& path, const RunOutcome& outcome) {
   for (const MapPoint& point : outcome.points) points.push_back({point.position});
   std::vector<io::MapLine> lines;
   for (const MapLine& line : outcome.lines)
-    lines.push_back({line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
+    lines.push_back(
+        {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
   io::write_map(path, points, lines);
 }
 
@@ -69,7 +72,8 @@ Json times_json(const RunOutcome& outcome) {
   const auto quantiles = [](const std::vector<double>& v) {
     return Json{{"median", quantile(v, 0.5)}, {"p95", quantile(v, 0.95)}, {"max", quantile(v, 1.0)}};
   };
-  const double rate = outcome.wall_seconds > 0 ? static_cast<double>(outcome.frames.size()) / outcome.wall_seconds : 0;
+  const double rate =
+      outcome.wall_seconds > 0 ? static_cast<double>(outcome.frames.size()) / outcome.wall_seconds : 0;
   return {{"frames_per_second", rate},
           {"wall_seconds", outcome.wall_seconds},
           {"frame_ms", quantiles(frame)},
@@ -79,7 +83,8 @@ Json times_json(const RunOutcome& outcome) {
 
 Json states_json(const RunOutcome& outcome) {
   Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"lost", 0}};
-  for (const FrameRecord& f : outcome.frames) states[name(f.result.state)] = states[name(f.result.state)].get<int>() + 1;
+  for (const FrameRecord& f : outcome.frames)
+    states[name(f.result.state)] = states[name(f.result.state)].get<int>() + 1;
   return states;
 }
 
@@ -87,10 +92,16 @@ Json settings_json(const RunContext& context, const RunOutcome& outcome) {
   const RunSettings& s = context.settings;
   Json parameters;
   for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
-  return {{"dataset", s.dataset}, {"camera", context.camera_source},
+  return {{"dataset", s.dataset},
+          {"camera", context.camera_source},
           {"pinhole", {context.pinhole.fx, context.pinhole.fy, context.pinhole.cx, context.pinhole.cy}},
-          {"normals", s.normals}, {"preset", s.preset}, {"start", s.slice.start}, {"end", s.slice.end},
-          {"stride", s.slice.stride}, {"seed", s.seed}, {"parameters", parameters}};
+          {"normals", s.normals},
+          {"preset", s.preset},
+          {"start", s.slice.start},
+          {"end", s.slice.end},
+          {"stride", s.slice.stride},
+          {"seed", s.seed},
+          {"parameters", parameters}};
 }
 
 std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::Trajectory& trajectory) {
@@ -111,9 +122,9 @@ void write_top_view_file(const fs::path& path, const RunContext& context, const 
   if (outcome.trajectory.empty()) return;
   Sim3<double> truth_from_estimate;
   if (evaluation) truth_from_estimate = evaluation->truth_from_estimate;
-  io::TopView view = io::comparison_view(context.dataset.ground_truth, outcome.trajectory, truth_from_estimate,
-                                         context.dataset.frames.front().stamp, context.dataset.frames.back().stamp,
-                                         context.settings.dataset);
+  io::TopView view = io::comparison_view(context.dataset.ground_truth, outcome.trajectory,
+                                         truth_from_estimate, context.dataset.frames.front().stamp,
+                                         context.dataset.frames.back().stamp, context.settings.dataset);
   if (!evaluation) view.unit = "map units";
   for (const MapPoint& point : outcome.points) view.points.push_back(truth_from_estimate * point.position);
   io::write_top_view(path, view);

@@ -46,7 +46,8 @@ void override_parameters(P& pipeline, const std::vector<ParameterValue>& overrid
       value = static_cast<Value>(inside);
       known = true;
     });
-    if (!known) throw io::Error("--set " + wanted.name + ": no such parameter in this preset; see --list-parameters");
+    if (!known)
+      throw io::Error("--set " + wanted.name + ": no such parameter in this preset; see --list-parameters");
   }
 }
 
@@ -69,7 +70,8 @@ void collect_map(const P& pipeline, RunOutcome& outcome) {
 }  // namespace detail
 
 template <class P>
-RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings& settings, Progress& progress) {
+RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings& settings,
+                          Progress& progress) {
   detail::override_parameters(pipeline, settings.overrides);
   if constexpr (requires { pipeline.rotation.seed; }) pipeline.rotation.seed = settings.seed;
   if constexpr (requires { pipeline.initialisation.seed; }) pipeline.initialisation.seed = settings.seed;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Backfill: the frames that passed while the first map was still being waited for get their poses once it stands.
+// Backfill: the frames that passed while the first map was still being waited for get their poses once it
+// stands.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +25,8 @@ class Backfill {
 
   void clear() { waiting_.clear(); }
 
-  // Tracks the waiting frames outwards from the first keyframe, one after the other in each direction, until one
-  // fails. The map's two keyframes are the first map; poses go into the log.
+  // Tracks the waiting frames outwards from the first keyframe, one after the other in each direction, until
+  // one fails. The map's two keyframes are the first map; poses go into the log.
   template <class Fallback, class Refinement>
   void run(Map<S>& map, Fallback& fallback, Refinement& refinement, TrajectoryLog<S>& log) {
     const Keyframe<S>& reference = map.keyframes.front();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pipeline asks of each of its stages. A model of your own that satisfies a concept plugs in as it is.
+// What the pipeline asks of each of its stages. A model of your own that satisfies a concept plugs in as it
+// is.
 #pragma once
 
 #include <concepts>
@@ -26,22 +27,23 @@ concept InitialisationStage = requires(T stage, TrackedFrame<S>& frame, Map<S>& 
 
 // Solves the translation of a frame whose rotation is known.
 template <class T, class S>
-concept TranslationStage =
-    requires(T stage, const Map<S>& map, const RecentLandmarks<S>& recent, TrackedFrame<S>& frame) {
-      { stage.translate(map, recent, frame) } -> std::same_as<PoseEstimate<S>>;
-    };
+concept TranslationStage = requires(T stage, const Map<S>& map, const RecentLandmarks<S>& recent,
+                                    TrackedFrame<S>& frame) {
+  { stage.translate(map, recent, frame) } -> std::same_as<PoseEstimate<S>>;
+};
 
 // Solves all six degrees of freedom from recent frames or from one keyframe.
 template <class T, class S>
-concept FallbackStage = requires(T stage, const Map<S>& map, const RecentLandmarks<S>& recent, KeyframeId keyframe,
-                                 const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+concept FallbackStage = requires(T stage, const Map<S>& map, const RecentLandmarks<S>& recent,
+                                 KeyframeId keyframe, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
   { stage.track(map, recent, prior, frame) } -> std::same_as<PoseEstimate<S>>;
   { stage.track_keyframe(map, keyframe, prior, frame) } -> std::same_as<PoseEstimate<S>>;
 };
 
 // Checks a pose against the local map and refines it.
 template <class T, class S>
-concept RefinementStage = requires(T stage, Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+concept RefinementStage = requires(T stage, Map<S>& map, const RotationPrior<S>* prior,
+                                   TrackedFrame<S>& frame) {
   { stage.refine(map, prior, frame) } -> std::same_as<PoseEstimate<S>>;
 };
 

@@ -30,7 +30,8 @@ struct Correspondences {
     for (std::size_t i = 0; i < frame.point_landmarks.size(); ++i) {
       if (frame.point_landmarks[i] == kNone) continue;
       const PointFeature<S>& feature = frame.frame.points[i];
-      points.push_back({map.points[map.index(frame.point_landmarks[i])].position, feature.pixel, feature.sigma});
+      points.push_back(
+          {map.points[map.index(frame.point_landmarks[i])].position, feature.pixel, feature.sigma});
       point_features.push_back(static_cast<std::int32_t>(i));
     }
     for (std::size_t i = 0; i < frame.line_landmarks.size(); ++i) {

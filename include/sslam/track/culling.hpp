@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Culling: a young landmark must prove itself, by being found where it should be seen and by further keyframes.
+// Culling: a young landmark must prove itself, by being found where it should be seen and by further
+// keyframes.
 #pragma once
 
 #include <vector>
@@ -11,9 +12,9 @@ namespace sslam {
 template <Scalar S>
 class LandmarkCulling {
  public:
-  S min_found = S(0.25);              // share of the frames that should see a landmark and do
-  int probation = 3;                  // keyframes for which a landmark is young
-  std::size_t min_observations = 3;   // that a landmark must have when its probation ends
+  S min_found = S(0.25);             // share of the frames that should see a landmark and do
+  int probation = 3;                 // keyframes for which a landmark is young
+  std::size_t min_observations = 3;  // that a landmark must have when its probation ends
 
   // Tests the landmarks that are still young as of keyframe `now`; others have passed.
   void cull(Map<S>& map, KeyframeId now) {

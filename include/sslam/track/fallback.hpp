@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracking without a Manhattan frame: first from the last two frames, then from the last keyframe by descriptors
-// (Li et al. 2020, section V-C).
+// Tracking without a Manhattan frame: first from the last two frames, then from the last keyframe by
+// descriptors (Li et al. 2020, section V-C).
 #pragma once
 
 #include "sslam/track/translation.hpp"
@@ -16,7 +16,8 @@ class FeatureFallback {
   S widening = 2;  // of the search windows when the first try fails
   PointMatchOptions<S> descriptor_match{.max_distance = 50, .max_ratio = S(0.75)};
 
-  // In: the frame's pose is the prediction. Out: the solved pose and its inlying matches; unchanged pose on failure.
+  // In: the frame's pose is the prediction. Out: the solved pose and its inlying matches; unchanged pose on
+  // failure.
   [[nodiscard]] PoseEstimate<S> track(const Map<S>& map, const RecentLandmarks<S>& recent,
                                       const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
     PoseEstimate<S> estimate;
@@ -29,8 +30,8 @@ class FeatureFallback {
   }
 
   // Tracks against one keyframe: its points by descriptors, then its lines by reprojection.
-  [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>& map, KeyframeId id, const RotationPrior<S>* prior,
-                                               TrackedFrame<S>& frame) {
+  [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>& map, KeyframeId id,
+                                               const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
     match_keyframe_points(keyframe, frame);
     const SE3<S> before = frame.cam_from_world;
@@ -40,7 +41,8 @@ class FeatureFallback {
     recent_.lines.clear();
     for (const LandmarkId landmark : keyframe.line_landmarks)
       if (landmark != kNone) recent_.lines.push_back(landmark);
-    match_lines_by_projection<S>(map, recent_.lines, frame, match.line_radius, match.lines, [](LandmarkId, bool) {});
+    match_lines_by_projection<S>(map, recent_.lines, frame, match.line_radius, match.lines,
+                                 [](LandmarkId, bool) {});
     estimate = solve(map, prior, frame);
     if (!estimate.ok()) frame.cam_from_world = before;
     return estimate;
@@ -62,7 +64,8 @@ class FeatureFallback {
       frame.point_landmarks[Map<S>::index(p.second)] = keyframe.point_landmarks[Map<S>::index(p.first)];
   }
 
-  [[nodiscard]] PoseEstimate<S> solve(const Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+  [[nodiscard]] PoseEstimate<S> solve(const Map<S>& map, const RotationPrior<S>* prior,
+                                      TrackedFrame<S>& frame) {
     matches_.gather(map, frame);
     if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
     SE3<S> pose = frame.cam_from_world;
@@ -88,7 +91,8 @@ struct NoFallback {
                                       TrackedFrame<S>&) {
     return {};
   }
-  [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>&, KeyframeId, const RotationPrior<S>*, TrackedFrame<S>&) {
+  [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>&, KeyframeId, const RotationPrior<S>*,
+                                               TrackedFrame<S>&) {
     return {};
   }
 };

@@ -28,8 +28,8 @@ class FeatureGrid {
       items_[cursor_[cell_of(points[i].pixel)]++] = static_cast<std::int32_t>(i);
   }
 
-  // Calls visit(index) for every feature in the square of half side `radius` around `pixel`, and a few beyond:
-  // the caller checks what it needs.
+  // Calls visit(index) for every feature in the square of half side `radius` around `pixel`, and a few
+  // beyond: the caller checks what it needs.
   template <class Visit>
   void near(const Vec2<S>& pixel, S radius, Visit visit) const {
     if (items_.empty() || !pixel.allFinite()) return;

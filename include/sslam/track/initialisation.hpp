@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Initialisation by decoupled rotation and translation (Li et al. 2020, section IV): rotations from the Manhattan
-// frame, translation as the null vector of the point matches; it waits through pure rotation.
+// Initialisation by decoupled rotation and translation (Li et al. 2020, section IV): rotations from the
+// Manhattan frame, translation as the null vector of the point matches; it waits through pure rotation.
 #pragma once
 
 #include <algorithm>
@@ -20,12 +20,12 @@ namespace sslam {
 template <Scalar S>
 class DecoupledInitialisation {
  public:
-  S search_radius = 30;                // pixels around where a feature was last seen, turned with the camera
-  int min_matches = 25;                // with the reference frame: fewer make the newest frame the reference
-  int min_points = 20;                 // landmarks that a first map must have
-  S min_parallax = radians(S(1));      // of a landmark that counts
+  S search_radius = 30;            // pixels around where a feature was last seen, turned with the camera
+  int min_matches = 25;            // with the reference frame: fewer make the newest frame the reference
+  int min_points = 20;             // landmarks that a first map must have
+  S min_parallax = radians(S(1));  // of a landmark that counts
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
-  S scene_depth = 1;                    // median depth of the first map: sets the monocular scale
+  S scene_depth = 1;                      // median depth of the first map: sets the monocular scale
   RelativePoseOptions<S> refinement;
   std::uint64_t seed = 1;
   PointMatchOptions<S> match{.max_distance = 60, .max_ratio = S(0.9)};
@@ -109,8 +109,8 @@ class DecoupledInitialisation {
     return sigma < max_direction_sigma ? Reason::kFine : Reason::kLowParallax;
   }
 
-  // Rotation from the two Manhattan rotations, translation as a null vector, and a refinement of both in which the
-  // rotation is held by its covariance.
+  // Rotation from the two Manhattan rotations, translation as a null vector, and a refinement of both in
+  // which the rotation is held by its covariance.
   [[nodiscard]] RelativePoseSummary<S> decoupled(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10) {
     R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
     const Mat3<S> turn = R_10.matrix();
@@ -136,8 +136,9 @@ class DecoupledInitialisation {
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (!inliers_[i]) continue;
       const BearingMatch<S>& bearing = bearings_[i];
-      const std::array views{PointView<S>{SE3<S>(), bearing.ray0.template head<2>(), bearing.sigma},
-                             PointView<S>{frame_from_reference, bearing.ray1.template head<2>(), bearing.sigma}};
+      const std::array views{
+          PointView<S>{SE3<S>(), bearing.ray0.template head<2>(), bearing.sigma},
+          PointView<S>{frame_from_reference, bearing.ray1.template head<2>(), bearing.sigma}};
       PointTriangulationOptions<S> options;
       options.min_parallax = min_parallax;
       const auto answer = triangulate_point<S>(views, options);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keyframe choice: a frame joins the map when it shares too little with its reference keyframe, or when it has moved
-// far enough to give new parallax.
+// Keyframe choice: a frame joins the map when it shares too little with its reference keyframe, or when it
+// has moved far enough to give new parallax.
 #pragma once
 
 #include "sslam/map/map.hpp"
@@ -11,13 +11,13 @@ namespace sslam {
 template <Scalar S>
 class SharedFeatureKeyframes {
  public:
-  S min_shared = S(0.8);       // share of the reference keyframe's landmarks that the frame still sees
-  S max_baseline = S(0.08);    // distance to the reference keyframe over the median scene depth
-  S max_turn = radians(S(12)); // rotation against the reference keyframe
-  int min_gap = 2;             // frames between keyframes
+  S min_shared = S(0.8);        // share of the reference keyframe's landmarks that the frame still sees
+  S max_baseline = S(0.08);     // distance to the reference keyframe over the median scene depth
+  S max_turn = radians(S(12));  // rotation against the reference keyframe
+  int min_gap = 2;              // frames between keyframes
 
-  [[nodiscard]] bool choose(const Map<S>& map, KeyframeId reference, const TrackedFrame<S>& frame, int inliers,
-                            int frames_since, S median_depth) const {
+  [[nodiscard]] bool choose(const Map<S>& map, KeyframeId reference, const TrackedFrame<S>& frame,
+                            int inliers, int frames_since, S median_depth) const {
     if (frames_since < min_gap) return false;
     const Keyframe<S>& keyframe = map.keyframes[map.index(reference)];
     const auto held = [](const std::vector<LandmarkId>& v) {
@@ -34,7 +34,9 @@ class SharedFeatureKeyframes {
 // Keeps the map as initialisation left it.
 template <Scalar S>
 struct NoKeyframes {
-  [[nodiscard]] bool choose(const Map<S>&, KeyframeId, const TrackedFrame<S>&, int, int, S) const { return false; }
+  [[nodiscard]] bool choose(const Map<S>&, KeyframeId, const TrackedFrame<S>&, int, int, S) const {
+    return false;
+  }
 };
 
 }  // namespace sslam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mapping: what happens when a frame becomes a keyframe. The optimiser is a policy: none, or bundle adjustment.
+// Mapping: what happens when a frame becomes a keyframe. The optimiser is a policy: none, or bundle
+// adjustment.
 #pragma once
 
 #include <concepts>
@@ -13,7 +14,7 @@ namespace sslam {
 // Improves poses and landmarks around a keyframe in place.
 template <class T, class S>
 concept MapOptimiser = requires(T optimiser, Map<S>& map, KeyframeId keyframe) {
-  { optimiser.optimise(map, keyframe) };
+  {optimiser.optimise(map, keyframe)};
 };
 
 // Leaves the map as triangulation made it.

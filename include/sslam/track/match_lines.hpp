@@ -14,22 +14,25 @@ namespace sslam {
 
 template <Scalar S>
 struct LineMatchOptions {
-  int max_distance = 70;                 // bits of 256 in which two views of one segment may differ
-  S max_ratio = S(0.85);                 // best distance over second best, when matching by descriptor alone
-  S max_angle = radians(S(6));           // between the predicted and the seen segment
-  S min_overlap = S(0.3);                // of the shorter segment, along the predicted one
-  S near_plane = S(1e-2);                // depth below which a landmark is cut off, map units
+  int max_distance = 70;        // bits of 256 in which two views of one segment may differ
+  S max_ratio = S(0.85);        // best distance over second best, when matching by descriptor alone
+  S max_angle = radians(S(6));  // between the predicted and the seen segment
+  S min_overlap = S(0.3);       // of the shorter segment, along the predicted one
+  S near_plane = S(1e-2);       // depth below which a landmark is cut off, map units
 };
 
-// The part of a 3D segment in front of the camera, in pixels; nothing when it lies behind or outside the image.
+// The part of a 3D segment in front of the camera, in pixels; nothing when it lies behind or outside the
+// image.
 template <Scalar S>
-[[nodiscard]] std::optional<Segment2<S>> predict_segment(const LineLandmark<S>& landmark, const Frame<S>& frame,
-                                                         const SE3<S>& cam_from_world, S near_plane) {
+[[nodiscard]] std::optional<Segment2<S>> predict_segment(const LineLandmark<S>& landmark,
+                                                         const Frame<S>& frame, const SE3<S>& cam_from_world,
+                                                         S near_plane) {
   Vec3<S> a = cam_from_world * landmark.start;
   Vec3<S> b = cam_from_world * landmark.end;
   if (a.z() < near_plane && b.z() < near_plane) return std::nullopt;
   const auto cut = [&](Vec3<S>& behind, const Vec3<S>& front) {
-    if (behind.z() < near_plane) behind += (front - behind) * ((near_plane - behind.z()) / (front.z() - behind.z()));
+    if (behind.z() < near_plane)
+      behind += (front - behind) * ((near_plane - behind.z()) / (front.z() - behind.z()));
   };
   cut(a, b);
   cut(b, a);
@@ -63,8 +66,8 @@ template <Scalar S>
   return shorter > S(1e-6) ? (high - low) / shorter : S(0);
 }
 
-// Geometric agreement of a seen segment with a predicted one: same direction, both ends within `radius` pixels of
-// the predicted line, and a common stretch.
+// Geometric agreement of a seen segment with a predicted one: same direction, both ends within `radius`
+// pixels of the predicted line, and a common stretch.
 template <Scalar S>
 [[nodiscard]] bool segments_agree(const Segment2<S>& predicted, const Segment2<S>& seen, S radius,
                                   const LineMatchOptions<S>& options) {
@@ -72,13 +75,16 @@ template <Scalar S>
   const Vec3<S> line = line_through(predicted.start, predicted.end);
   const S d0 = line.template head<2>().dot(seen.start) + line.z();
   const S d1 = line.template head<2>().dot(seen.end) + line.z();
-  return std::abs(d0) < radius && std::abs(d1) < radius && overlap_ratio(predicted, seen) > options.min_overlap;
+  return std::abs(d0) < radius && std::abs(d1) < radius &&
+         overlap_ratio(predicted, seen) > options.min_overlap;
 }
 
-// Matches line landmarks to free segments near where the frame's pose puts them; see match_points_by_projection.
+// Matches line landmarks to free segments near where the frame's pose puts them; see
+// match_points_by_projection.
 template <Scalar S, class Seen>
-int match_lines_by_projection(const Map<S>& map, std::span<const LandmarkId> candidates, TrackedFrame<S>& frame,
-                              S radius, const LineMatchOptions<S>& options, Seen seen) {
+int match_lines_by_projection(const Map<S>& map, std::span<const LandmarkId> candidates,
+                              TrackedFrame<S>& frame, S radius, const LineMatchOptions<S>& options,
+                              Seen seen) {
   int matched = 0;
   for (const LandmarkId id : candidates) {
     const LineLandmark<S>& landmark = map.lines[map.index(id)];
@@ -104,10 +110,12 @@ int match_lines_by_projection(const Map<S>& map, std::span<const LandmarkId> can
   return matched;
 }
 
-// Segments of two images that are each other's best match by descriptor among those that `allowed(i, j)` lets by.
+// Segments of two images that are each other's best match by descriptor among those that `allowed(i, j)` lets
+// by.
 template <Scalar S, class Allowed>
 void match_lines_mutually(std::span<const LineFeature<S>> a, std::span<const LineFeature<S>> b,
-                          const LineMatchOptions<S>& options, Allowed allowed, std::vector<IndexPair>& pairs) {
+                          const LineMatchOptions<S>& options, Allowed allowed,
+                          std::vector<IndexPair>& pairs) {
   pairs.clear();
   std::vector<std::pair<int, std::int32_t>> holder(b.size(), {std::numeric_limits<int>::max(), kNone});
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -16,10 +16,10 @@ namespace sslam {
 
 template <Scalar S>
 struct PointMatchOptions {
-  int max_distance = 64;          // bits of 256 in which two views of one point may differ
-  S max_ratio = S(0.85);          // best distance over second best: lower is less ambiguous
-  S max_scale_ratio = S(1.6);     // feature size against the size that distance predicts
-  S min_view_cosine = S(0.5);     // between the mean viewing direction and this one: 60 degrees
+  int max_distance = 64;       // bits of 256 in which two views of one point may differ
+  S max_ratio = S(0.85);       // best distance over second best: lower is less ambiguous
+  S max_scale_ratio = S(1.6);  // feature size against the size that distance predicts
+  S min_view_cosine = S(0.5);  // between the mean viewing direction and this one: 60 degrees
 };
 
 // Best and second best of a stream of candidates.
@@ -43,7 +43,8 @@ struct BestTwo {
   template <Scalar S>
   [[nodiscard]] bool accepted(int max_distance, S max_ratio) const noexcept {
     return index != kNone && best <= max_distance &&
-           (second == std::numeric_limits<int>::max() || static_cast<S>(best) <= max_ratio * static_cast<S>(second));
+           (second == std::numeric_limits<int>::max() ||
+            static_cast<S>(best) <= max_ratio * static_cast<S>(second));
   }
 };
 
@@ -73,16 +74,18 @@ template <Scalar S>
 }
 
 // Matches landmarks to features of the frame that are still free, within `radius` pixels (times the predicted
-// feature size) of where the frame's pose puts them. Returns the number of new matches; landmarks that should be
-// visible are passed to `seen(id, matched)`.
+// feature size) of where the frame's pose puts them. Returns the number of new matches; landmarks that should
+// be visible are passed to `seen(id, matched)`.
 template <Scalar S, class Seen>
-int match_points_by_projection(const Map<S>& map, std::span<const LandmarkId> candidates, TrackedFrame<S>& frame,
-                               S radius, const PointMatchOptions<S>& options, Seen seen) {
+int match_points_by_projection(const Map<S>& map, std::span<const LandmarkId> candidates,
+                               TrackedFrame<S>& frame, S radius, const PointMatchOptions<S>& options,
+                               Seen seen) {
   int matched = 0;
   for (const LandmarkId id : candidates) {
     const PointLandmark<S>& landmark = map.points[map.index(id)];
     if (!landmark.alive) continue;
-    const auto predicted = predict_point(landmark, frame.frame, frame.cam_from_world, options.min_view_cosine);
+    const auto predicted =
+        predict_point(landmark, frame.frame, frame.cam_from_world, options.min_view_cosine);
     if (!predicted.visible) continue;
     const S reach = radius * std::max(S(1), predicted.sigma);
     const Descriptor& descriptor = landmark.descriptor;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// New landmarks for a new keyframe: free points and lines are matched with the connected keyframes and triangulated.
+// New landmarks for a new keyframe: free points and lines are matched with the connected keyframes and
+// triangulated.
 #pragma once
 
 #include <span>
@@ -15,13 +16,13 @@ template <Scalar S>
 struct NewLandmarkOptions {
   bool use_points = true;
   bool use_lines = true;
-  std::size_t max_neighbours = 8;          // connected keyframes to match with
-  S min_baseline = S(0.015);               // between the two cameras over the median scene depth
-  S nearest = S(0.2), farthest = S(15);    // depth of a new landmark over the median scene depth
-  S max_epipolar = S(2.5);                 // distance from the epipolar line over the feature's sigma
+  std::size_t max_neighbours = 8;        // connected keyframes to match with
+  S min_baseline = S(0.015);             // between the two cameras over the median scene depth
+  S nearest = S(0.2), farthest = S(15);  // depth of a new landmark over the median scene depth
+  S max_epipolar = S(2.5);               // distance from the epipolar line over the feature's sigma
   S min_point_parallax = radians(S(0.8));
-  S min_line_parallax = radians(S(2));     // between the interpretation planes
-  S min_line_overlap = S(0.3);             // of the stretches that the two views see
+  S min_line_parallax = radians(S(2));  // between the interpretation planes
+  S min_line_overlap = S(0.3);          // of the stretches that the two views see
   PointMatchOptions<S> points{.max_distance = 50};
   LineMatchOptions<S> lines{.max_distance = 50, .max_angle = radians(S(20))};
 };
@@ -60,7 +61,8 @@ class NewLandmarks {
     return added;
   }
 
-  // Calls visit for the free features of b on the part of the epipolar line of feature i where a depth is plausible.
+  // Calls visit for the free features of b on the part of the epipolar line of feature i where a depth is
+  // plausible.
   template <class Visit>
   void visit_epipolar(const Keyframe<S>& a, const Keyframe<S>& b, const Mat3<S>& essential, S median_depth,
                       std::int32_t i, Visit visit) const {
@@ -85,7 +87,8 @@ class NewLandmarks {
         const PointFeature<S>& other = b.frame.points[Map<S>::index(j)];
         const S scale = other.sigma / feature.sigma;
         if (scale > options.points.max_scale_ratio || scale * options.points.max_scale_ratio < 1) return;
-        const S distance = std::abs(line.dot(b.frame.pinhole.unproject(other.pixel))) / norm * b.frame.pinhole.fx;
+        const S distance =
+            std::abs(line.dot(b.frame.pinhole.unproject(other.pixel))) / norm * b.frame.pinhole.fx;
         if (distance < options.max_epipolar * other.sigma) visit(j);
       });
     }
@@ -116,7 +119,8 @@ class NewLandmarks {
         a.frame.lines, b.frame.lines, options.lines,
         [&](std::size_t i, std::size_t j) {
           if (a.line_landmarks[i] != kNone || b.line_landmarks[j] != kNone) return false;
-          if (a.line_axes[i] != kNone && b.line_axes[j] != kNone && a.line_axes[i] != b.line_axes[j]) return false;
+          if (a.line_axes[i] != kNone && b.line_axes[j] != kNone && a.line_axes[i] != b.line_axes[j])
+            return false;
           return similar_direction(a, a.frame.lines[i].segment, b, b.frame.lines[j].segment, turn);
         },
         pairs_);
@@ -145,7 +149,8 @@ class NewLandmarks {
     const std::array views{view(a, p.first), view(b, p.second)};
     const auto answer = triangulate_line<S>(views, line_options());
     if (!usable(answer.status)) return false;
-    if (!plausible_depth(a, answer.start, median_depth) || !plausible_depth(a, answer.end, median_depth)) return false;
+    if (!plausible_depth(a, answer.start, median_depth) || !plausible_depth(a, answer.end, median_depth))
+      return false;
     if (answer.overlap < options.min_line_overlap) return false;
     const LandmarkId landmark = map.add_line(answer.line, answer.start, answer.end, id_a);
     map.observe_line(landmark, id_b, Map<S>::index(p.second));
@@ -153,7 +158,8 @@ class NewLandmarks {
     return true;
   }
 
-  [[nodiscard]] bool plausible_depth(const Keyframe<S>& keyframe, const Vec3<S>& point, S median_depth) const {
+  [[nodiscard]] bool plausible_depth(const Keyframe<S>& keyframe, const Vec3<S>& point,
+                                     S median_depth) const {
     const S depth = (keyframe.cam_from_world * point).z();
     return depth > options.nearest * median_depth && depth < options.farthest * median_depth;
   }

@@ -14,9 +14,9 @@
 
 namespace sslam {
 
-template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisation, TranslationStage<S> Translation,
-          FallbackStage<S> Fallback, RefinementStage<S> Refinement, KeyframeStage<S> Keyframes,
-          MappingStage<S> Mapping, StageTimer Timer = NoTimer>
+template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisation,
+          TranslationStage<S> Translation, FallbackStage<S> Fallback, RefinementStage<S> Refinement,
+          KeyframeStage<S> Keyframes, MappingStage<S> Mapping, StageTimer Timer = NoTimer>
 class Pipeline {
  public:
   Pipeline() = default;
@@ -69,7 +69,8 @@ class Pipeline {
     const SO3<S> predicted = last_->cam_from_world.rotation;
     const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, false);
     result.axes_seen = answer.axes_seen;
-    current_->cam_from_world = {current_->manhattan ? current_->manhattan->cam_from_world : predicted, Vec3<S>::Zero()};
+    current_->cam_from_world = {current_->manhattan ? current_->manhattan->cam_from_world : predicted,
+                                Vec3<S>::Zero()};
     timer.end(Stage::kRotation);
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
@@ -94,7 +95,8 @@ class Pipeline {
     result.axes_seen = answer.axes_seen;
     timer.end(Stage::kRotation);
 
-    const PoseEstimate<S> estimate = lost_frames_ == 0 ? track_pose(predicted, answer, result) : relocalise(result);
+    const PoseEstimate<S> estimate =
+        lost_frames_ == 0 ? track_pose(predicted, answer, result) : relocalise(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
@@ -110,7 +112,8 @@ class Pipeline {
   }
 
   // The decoupled way first; where it does not hold, six degrees of freedom.
-  PoseEstimate<S> track_pose(const SE3<S>& predicted, const RotationAnswer<S>& answer, TrackResult<S>& result) {
+  PoseEstimate<S> track_pose(const SE3<S>& predicted, const RotationAnswer<S>& answer,
+                             TrackResult<S>& result) {
     std::optional<RotationPrior<S>> prior;
     if (current_->manhattan) prior = make_prior(*current_->manhattan);
     result.reason = Reason::kNoManhattanFrame;

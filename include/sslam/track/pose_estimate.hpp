@@ -25,14 +25,14 @@ struct PoseEstimate {
 
 template <Scalar S>
 struct PoseAcceptance {
-  int min_inliers = 10;                     // points plus lines
-  S min_inlier_share = S(0.4);              // of all matches
-  S max_position_sigma = S(0.03);           // standard deviation of the camera's place over the median scene depth
-  S max_rotation_sigma = radians(S(1.5));   // standard deviation of the camera's rotation, about any axis
+  int min_inliers = 10;            // points plus lines
+  S min_inlier_share = S(0.4);     // of all matches
+  S max_position_sigma = S(0.03);  // standard deviation of the camera's place over the median scene depth
+  S max_rotation_sigma = radians(S(1.5));  // standard deviation of the camera's rotation, about any axis
 };
 
-// Judges a solved pose by its inliers and, through the information matrix of the tangent xi = (phi, rho) or of rho
-// alone, by how well they pin it down.
+// Judges a solved pose by its inliers and, through the information matrix of the tangent xi = (phi, rho) or
+// of rho alone, by how well they pin it down.
 template <Scalar S, int D>
 [[nodiscard]] PoseEstimate<S> judge(Correspondences<S>& matches, const SE3<S>& cam_from_world,
                                     const Mat<S, D, D>& information, const PoseAcceptance<S>& acceptance) {
@@ -52,7 +52,8 @@ template <Scalar S, int D>
     const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(block, Eigen::EigenvaluesOnly);
     return std::sqrt(std::max(S(0), eigen.eigenvalues().z()));
   };
-  if (!(spread(D - 3) < acceptance.max_position_sigma * matches.median_depth(cam_from_world))) return estimate;
+  if (!(spread(D - 3) < acceptance.max_position_sigma * matches.median_depth(cam_from_world)))
+    return estimate;
   if (D == 6 && !(spread(0) < acceptance.max_rotation_sigma)) return estimate;
   estimate.reason = Reason::kFine;
   return estimate;

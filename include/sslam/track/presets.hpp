@@ -2,6 +2,8 @@
 // Blessed combinations of stages. An ablation is an alias: the same pipeline with a null model in one place.
 #pragma once
 
+#include "sslam/map/map_adjustment.hpp"
+#include "sslam/solver/bundle_solver.hpp"
 #include "sslam/track/fallback.hpp"
 #include "sslam/track/initialisation.hpp"
 #include "sslam/track/keyframe_choice.hpp"
@@ -13,21 +15,32 @@
 
 namespace sslam::presets {
 
-// The paper's method: decoupled tracking with the Manhattan frame, fallback, refinement against the local map.
-template <Scalar S, MapOptimiser<S> Optimiser = NoOptimiser<S>, StageTimer Timer = NoTimer>
-using Structure = Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>,
-                           FeatureFallback<S>, LocalMapRefinement<S>, SharedFeatureKeyframes<S>,
-                           KeyframeMapping<S, Optimiser>, Timer>;
+// Bundle adjustment around each new keyframe.
+template <Scalar S>
+using BundleMapping = KeyframeMapping<S, MapAdjustment<S, BundleSolver<S>>>;
+
+// Decoupled tracking with the Manhattan frame, fallback, refinement against the local map, local bundle
+// adjustment.
+template <Scalar S, StageTimer Timer = NoTimer>
+using Structure =
+    Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
+             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, Timer>;
+
+// The same as published (Li et al. 2020): landmarks stay as they were triangulated.
+template <Scalar S, StageTimer Timer = NoTimer>
+using Paper =
+    Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
+             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, KeyframeMapping<S>, Timer>;
 
 // No Manhattan world: points and lines alone.
-template <Scalar S, MapOptimiser<S> Optimiser = NoOptimiser<S>, StageTimer Timer = NoTimer>
+template <Scalar S, StageTimer Timer = NoTimer>
 using Features = Pipeline<S, NoRotation<S>, DecoupledInitialisation<S>, NoTranslation<S>, FeatureFallback<S>,
-                          LocalMapRefinement<S>, SharedFeatureKeyframes<S>, KeyframeMapping<S, Optimiser>, Timer>;
+                          LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, Timer>;
 
-// Frame to frame, without the local map: what the decoupled tracking does on its own.
-template <Scalar S, MapOptimiser<S> Optimiser = NoOptimiser<S>, StageTimer Timer = NoTimer>
-using Odometry = Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>,
-                          FeatureFallback<S>, NoRefinement<S>, SharedFeatureKeyframes<S>,
-                          KeyframeMapping<S, Optimiser>, Timer>;
+// Frame to frame, without refinement against the local map.
+template <Scalar S, StageTimer Timer = NoTimer>
+using Odometry =
+    Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
+             NoRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, Timer>;
 
 }  // namespace sslam::presets

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refinement of a tracked pose against the local map of the last keyframes, with all six degrees of freedom; the
-// Manhattan rotation takes part as one more observation, weighed by its own covariance.
+// Refinement of a tracked pose against the local map of the last keyframes, with all six degrees of freedom;
+// the Manhattan rotation takes part as one more observation, weighed by its own covariance.
 #pragma once
 
 #include "sslam/map/local_map.hpp"
@@ -16,8 +16,8 @@ class LocalMapRefinement {
   PoseRefinementOptions<S> solver;
   std::size_t max_keyframes = 20;
 
-  // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the landmarks'
-  // visible and found counts are brought up to date. Unchanged pose on failure.
+  // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the
+  // landmarks' visible and found counts are brought up to date. Unchanged pose on failure.
   [[nodiscard]] PoseEstimate<S> refine(Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
     local_.gather(map, frame.point_landmarks, frame.line_landmarks, max_keyframes);
     drop_matched(local_.points, frame.point_landmarks);
@@ -46,7 +46,8 @@ class LocalMapRefinement {
     for (const LandmarkId id : matched)
       if (id != kNone) taken_.push_back(id);
     std::sort(taken_.begin(), taken_.end());
-    std::erase_if(candidates, [&](LandmarkId id) { return std::binary_search(taken_.begin(), taken_.end(), id); });
+    std::erase_if(candidates,
+                  [&](LandmarkId id) { return std::binary_search(taken_.begin(), taken_.end(), id); });
   }
 
   template <class Count>

@@ -16,38 +16,51 @@ enum class State : std::uint8_t {
 };
 
 enum class Reason : std::uint8_t {
-  kFine,                // nothing to say
-  kTooFewFeatures,      // the image shows too little
-  kTooFewMatches,       // too little of the reference frame, or of the map, is seen again
-  kLowParallax,         // the camera has turned or stood still: no depth yet
-  kNoConsensus,         // the matches do not agree on one motion
-  kNoManhattanFrame,    // no Manhattan evidence in this image
-  kManhattanRejected,   // the Manhattan pose does not agree with the map
-  kUncertainPose,       // enough matches, but they leave the pose too uncertain
-  kRelocalised,         // found again after a loss
+  kFine,               // nothing to say
+  kTooFewFeatures,     // the image shows too little
+  kTooFewMatches,      // too little of the reference frame, or of the map, is seen again
+  kLowParallax,        // the camera has turned or stood still: no depth yet
+  kNoConsensus,        // the matches do not agree on one motion
+  kNoManhattanFrame,   // no Manhattan evidence in this image
+  kManhattanRejected,  // the Manhattan pose does not agree with the map
+  kUncertainPose,      // enough matches, but they leave the pose too uncertain
+  kRelocalised,        // found again after a loss
 };
 
 [[nodiscard]] constexpr const char* name(State state) noexcept {
   switch (state) {
-    case State::kInitialising: return "initialising";
-    case State::kManhattan: return "manhattan";
-    case State::kFallback: return "fallback";
-    case State::kLost: return "lost";
+    case State::kInitialising:
+      return "initialising";
+    case State::kManhattan:
+      return "manhattan";
+    case State::kFallback:
+      return "fallback";
+    case State::kLost:
+      return "lost";
   }
   return "unknown";
 }
 
 [[nodiscard]] constexpr const char* name(Reason reason) noexcept {
   switch (reason) {
-    case Reason::kFine: return "";
-    case Reason::kTooFewFeatures: return "too few features";
-    case Reason::kTooFewMatches: return "too few matches";
-    case Reason::kLowParallax: return "low parallax";
-    case Reason::kNoConsensus: return "no consensus";
-    case Reason::kNoManhattanFrame: return "no Manhattan evidence";
-    case Reason::kManhattanRejected: return "Manhattan pose rejected";
-    case Reason::kUncertainPose: return "uncertain pose";
-    case Reason::kRelocalised: return "relocalised";
+    case Reason::kFine:
+      return "";
+    case Reason::kTooFewFeatures:
+      return "too few features";
+    case Reason::kTooFewMatches:
+      return "too few matches";
+    case Reason::kLowParallax:
+      return "low parallax";
+    case Reason::kNoConsensus:
+      return "no consensus";
+    case Reason::kNoManhattanFrame:
+      return "no Manhattan evidence";
+    case Reason::kManhattanRejected:
+      return "Manhattan pose rejected";
+    case Reason::kUncertainPose:
+      return "uncertain pose";
+    case Reason::kRelocalised:
+      return "relocalised";
   }
   return "unknown";
 }
@@ -58,11 +71,11 @@ struct TrackResult {
   double stamp = 0;         // seconds
   State state = State::kInitialising;
   Reason reason = Reason::kFine;
-  SE3<S> cam_from_world;    // meaningful where has_pose()
+  SE3<S> cam_from_world;  // meaningful where has_pose()
   int point_inliers = 0;
   int line_inliers = 0;
-  int axes_seen = 0;        // Manhattan axes with support: 3, 2, 1 or 0
-  bool keyframe = false;    // this frame joined the map
+  int axes_seen = 0;      // Manhattan axes with support: 3, 2, 1 or 0
+  bool keyframe = false;  // this frame joined the map
 
   [[nodiscard]] bool has_pose() const noexcept {
     return state == State::kManhattan || state == State::kFallback;

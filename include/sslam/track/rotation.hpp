@@ -23,13 +23,14 @@ class ManhattanRotation {
  public:
   SearchOptions<S> search;  // of the first frame; its `rotation` options serve every later one
   std::uint64_t seed = 1;
-  S squareness = radians(S(0.5));   // how far walls and edges stand from right angles: floor of every sigma
-  S max_sigma = radians(S(1.5));    // largest standard deviation, about any axis, of a trusted rotation
-  int confirmations = 3;            // frames in a row that must agree before a late Manhattan frame is believed
-  S agreement = radians(S(2));      // between them
+  S squareness = radians(S(0.5));  // how far walls and edges stand from right angles: floor of every sigma
+  S max_sigma = radians(S(1.5));   // largest standard deviation, about any axis, of a trusted rotation
+  int confirmations = 3;        // frames in a row that must agree before a late Manhattan frame is believed
+  S agreement = radians(S(2));  // between them
 
-  // Estimates the frame's rotation near the prediction and leaves it, with the axes of its lines, in the frame.
-  // `mapped` says whether the world is already fixed: before, the first Manhattan frame becomes the world.
+  // Estimates the frame's rotation near the prediction and leaves it, with the axes of its lines, in the
+  // frame. `mapped` says whether the world is already fixed: before, the first Manhattan frame becomes the
+  // world.
   RotationAnswer<S> rotate(TrackedFrame<S>& frame, const SO3<S>& predicted_cam_from_world, bool mapped) {
     gather_votes(frame.frame);
     const auto& n = frame.frame.normals;
@@ -61,7 +62,7 @@ class ManhattanRotation {
   }
 
   ManhattanEstimate<S> find(const NormalView<float>& normals, const SO3<S>& predicted, bool mapped,
-                              TrackedFrame<S>& frame) {
+                            TrackedFrame<S>& frame) {
     ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, search, seed, frame.line_axes);
     if (!usable(estimate.status) || estimate.axes_seen < 2) {
       candidate_.reset();
@@ -72,7 +73,8 @@ class ManhattanRotation {
       return estimate;
     }
     const SO3<S> world_from_manhattan = predicted.inverse() * estimate.cam_from_manhattan;
-    const SO3<S> named = candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
+    const SO3<S> named =
+        candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
     if (candidate_ && angle_between(named, *candidate_) < agreement) {
       if (++agreed_ >= confirmations) world_from_manhattan_ = named;
     } else {

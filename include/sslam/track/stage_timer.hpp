@@ -7,17 +7,30 @@
 
 namespace sslam {
 
-enum class Stage : std::uint8_t { kRotation, kInitialisation, kTranslation, kFallback, kRefinement, kMapping };
+enum class Stage : std::uint8_t {
+  kRotation,
+  kInitialisation,
+  kTranslation,
+  kFallback,
+  kRefinement,
+  kMapping
+};
 inline constexpr int kStageCount = 6;
 
 [[nodiscard]] constexpr const char* name(Stage stage) noexcept {
   switch (stage) {
-    case Stage::kRotation: return "rotation";
-    case Stage::kInitialisation: return "initialisation";
-    case Stage::kTranslation: return "translation";
-    case Stage::kFallback: return "fallback";
-    case Stage::kRefinement: return "refinement";
-    case Stage::kMapping: return "mapping";
+    case Stage::kRotation:
+      return "rotation";
+    case Stage::kInitialisation:
+      return "initialisation";
+    case Stage::kTranslation:
+      return "translation";
+    case Stage::kFallback:
+      return "fallback";
+    case Stage::kRefinement:
+      return "refinement";
+    case Stage::kMapping:
+      return "mapping";
   }
   return "unknown";
 }

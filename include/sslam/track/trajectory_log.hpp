@@ -20,7 +20,8 @@ struct TrajectoryEntry {
 template <Scalar S>
 class TrajectoryLog {
  public:
-  void add(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference, const SE3<S>& cam_from_world) {
+  void add(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference,
+           const SE3<S>& cam_from_world) {
     const SE3<S>& keyframe = map.keyframes[map.index(reference)].cam_from_world;
     entries_.push_back({index, stamp, reference, cam_from_world * keyframe.inverse()});
   }

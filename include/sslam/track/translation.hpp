@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decoupled tracking: with the Manhattan rotation fixed, three degrees of freedom remain, and points and lines of the
-// last two frames fix them (Li et al. 2020, section V-B).
+// Decoupled tracking: with the Manhattan rotation fixed, three degrees of freedom remain, and points and
+// lines of the last two frames fix them (Li et al. 2020, section V-B).
 #pragma once
 
 #include <span>
@@ -23,7 +23,8 @@ struct RecentLandmarks {
   }
 
  private:
-  static void merge(std::vector<LandmarkId>& out, const std::vector<LandmarkId>& a, const std::vector<LandmarkId>& b) {
+  static void merge(std::vector<LandmarkId>& out, const std::vector<LandmarkId>& a,
+                    const std::vector<LandmarkId>& b) {
     out.clear();
     for (const auto* seen : {&a, &b})
       for (const LandmarkId id : *seen)
@@ -41,14 +42,17 @@ struct MatchOptions {
   LineMatchOptions<S> lines;
 };
 
-// Drops the frame's matches and finds new ones among the recent landmarks, from the pose that the frame has now.
+// Drops the frame's matches and finds new ones among the recent landmarks, from the pose that the frame has
+// now.
 template <Scalar S>
-void match_recent(const Map<S>& map, const RecentLandmarks<S>& recent, S widening, const MatchOptions<S>& options,
-                  TrackedFrame<S>& frame) {
+void match_recent(const Map<S>& map, const RecentLandmarks<S>& recent, S widening,
+                  const MatchOptions<S>& options, TrackedFrame<S>& frame) {
   frame.forget_matches();
   const auto ignore = [](LandmarkId, bool) {};
-  match_points_by_projection<S>(map, recent.points, frame, options.point_radius * widening, options.points, ignore);
-  match_lines_by_projection<S>(map, recent.lines, frame, options.line_radius * widening, options.lines, ignore);
+  match_points_by_projection<S>(map, recent.points, frame, options.point_radius * widening, options.points,
+                                ignore);
+  match_lines_by_projection<S>(map, recent.lines, frame, options.line_radius * widening, options.lines,
+                               ignore);
 }
 
 template <Scalar S>
@@ -58,15 +62,16 @@ class DecoupledTranslation {
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.6)};
   PoseRefinementOptions<S> solver;
 
-  // In: the frame's pose has the Manhattan rotation and a predicted translation. Out: the solved translation and the
-  // inlying matches, or, on failure, an unchanged pose.
-  [[nodiscard]] PoseEstimate<S> translate(const Map<S>& map, const RecentLandmarks<S>& recent, TrackedFrame<S>& frame) {
+  // In: the frame's pose has the Manhattan rotation and a predicted translation. Out: the solved translation
+  // and the inlying matches, or, on failure, an unchanged pose.
+  [[nodiscard]] PoseEstimate<S> translate(const Map<S>& map, const RecentLandmarks<S>& recent,
+                                          TrackedFrame<S>& frame) {
     match_recent(map, recent, S(1), match, frame);
     matches_.gather(map, frame);
     if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
     SE3<S> pose = frame.cam_from_world;
-    const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
-                                               matches_.point_inliers, matches_.line_inliers);
+    const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
+                                               solver, matches_.point_inliers, matches_.line_inliers);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
     const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance);
     if (!estimate.ok()) return estimate;
