@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the front end hands to the tracker for one image: undistorted point and line features and surface normals.
+// What the front end hands to the tracker for one image: undistorted point and line features and surface
+// normals.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +23,9 @@ struct PointFeature {
 
 template <Scalar S>
 struct LineFeature {
-  Segment2<S> segment;      // undistorted; the brighter side lies to the same hand along start -> end in every view
-  S sigma = 1;              // standard deviation of an endpoint across the segment, pixels
+  Segment2<S>
+      segment;  // undistorted; the brighter side lies to the same hand along start -> end in every view
+  S sigma = 1;  // standard deviation of an endpoint across the segment, pixels
   std::uint8_t octave = 0;  // level of the image pyramid
   Descriptor descriptor;
 };
@@ -45,7 +47,8 @@ struct NormalField {
   }
 };
 
-// Vectors keep their capacity from frame to frame, so a reused Frame stops allocating after the first few images.
+// Vectors keep their capacity from frame to frame, so a reused Frame stops allocating after the first few
+// images.
 template <Scalar S>
 struct Frame {
   std::int64_t index = -1;  // position in the dataset

@@ -32,7 +32,7 @@ struct Keyframe {
   std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
   std::vector<std::int8_t> line_axes;       // Manhattan axis of each line, kNone where there is none
   std::optional<RotationObservation<S>> manhattan;
-  std::vector<Neighbour> neighbours;        // covisibility, most shared first
+  std::vector<Neighbour> neighbours;  // covisibility, most shared first
 };
 
 }  // namespace sslam

@@ -21,26 +21,26 @@ struct Observation {
 
 // What points and lines have in common.
 struct LandmarkCommon {
-  Descriptor descriptor;               // of the most recent keyframe that observes it
+  Descriptor descriptor;  // of the most recent keyframe that observes it
   std::vector<Observation> observations;
-  KeyframeId first_keyframe = kNone;   // that created it
-  std::int32_t visible = 0;            // frames in which it should have been seen
-  std::int32_t found = 0;              // frames in which it was
-  bool alive = true;                   // false: culled or fused; its id stays unused
+  KeyframeId first_keyframe = kNone;  // that created it
+  std::int32_t visible = 0;           // frames in which it should have been seen
+  std::int32_t found = 0;             // frames in which it was
+  bool alive = true;                  // false: culled or fused; its id stays unused
 };
 
 template <Scalar S>
 struct PointLandmark : LandmarkCommon {
   Vec3<S> position;           // world
   Vec3<S> viewing_direction;  // unit mean of the directions from the point to the cameras that see it
-  S extent = 0;               // feature sigma times distance, metres at one pixel per radian: predicts the octave
+  S extent = 0;  // feature sigma times distance, metres at one pixel per radian: predicts the octave
 };
 
 template <Scalar S>
 struct LineLandmark : LandmarkCommon {
-  Line3<S> line;                // world
-  Vec3<S> start, end;           // world, on the line: the part that has been seen
-  std::int8_t axis = kNone;     // Manhattan axis that it follows, or kNone
+  Line3<S> line;             // world
+  Vec3<S> start, end;        // world, on the line: the part that has been seen
+  std::int8_t axis = kNone;  // Manhattan axis that it follows, or kNone
 };
 
 }  // namespace sslam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the map around a frame: the keyframes that share landmarks with it, their neighbours, and what they see.
+// The part of the map around a frame: the keyframes that share landmarks with it, their neighbours, and what
+// they see.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 
 namespace sslam {
 
-// Keeps its buffers, and its marks by generation, so that a frame costs no allocation once the map stops growing.
+// Keeps its buffers, and its marks by generation, so that a frame costs no allocation once the map stops
+// growing.
 template <Scalar S>
 class LocalMap {
  public:
@@ -18,9 +20,10 @@ class LocalMap {
   std::vector<LandmarkId> points;
   std::vector<LandmarkId> lines;
 
-  // Keyframes that see the given landmarks, most votes first, at most `max_keyframes`; filled up with neighbours.
-  void gather(const Map<S>& map, std::span<const LandmarkId> seen_points, std::span<const LandmarkId> seen_lines,
-              std::size_t max_keyframes) {
+  // Keyframes that see the given landmarks, most votes first, at most `max_keyframes`; filled up with
+  // neighbours.
+  void gather(const Map<S>& map, std::span<const LandmarkId> seen_points,
+              std::span<const LandmarkId> seen_lines, std::size_t max_keyframes) {
     votes_.assign(map.keyframes.size(), 0);
     count(map, map.points, seen_points);
     count(map, map.lines, seen_lines);

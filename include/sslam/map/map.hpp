@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map: keyframes and landmarks by id, and the bookkeeping that keeps observations and covisibility in step.
+// The map: keyframes and landmarks by id, and the bookkeeping that keeps observations and covisibility in
+// step.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace sslam {
 template <Scalar S>
 class Map {
  public:
-  using Scalar_ = S;
+  using ScalarType = S;
 
   std::vector<Keyframe<S>> keyframes;
   std::vector<PointLandmark<S>> points;
@@ -88,11 +89,13 @@ class Map {
 
   // Hands the observations of `from` to `into`, where `into` has none in that keyframe, and erases `from`.
   void fuse_points(LandmarkId from, LandmarkId into) {
-    hand_over(points, from, into, [&](const Observation& o) { observe_point(into, o.keyframe, index(o.feature)); });
+    hand_over(points, from, into,
+              [&](const Observation& o) { observe_point(into, o.keyframe, index(o.feature)); });
     erase_point(from);
   }
   void fuse_lines(LandmarkId from, LandmarkId into) {
-    hand_over(lines, from, into, [&](const Observation& o) { observe_line(into, o.keyframe, index(o.feature)); });
+    hand_over(lines, from, into,
+              [&](const Observation& o) { observe_line(into, o.keyframe, index(o.feature)); });
     erase_line(from);
   }
 
@@ -111,7 +114,9 @@ class Map {
     sort_by_shared(kf.neighbours);
   }
 
-  [[nodiscard]] static constexpr std::size_t index(std::int32_t id) noexcept { return static_cast<std::size_t>(id); }
+  [[nodiscard]] static constexpr std::size_t index(std::int32_t id) noexcept {
+    return static_cast<std::size_t>(id);
+  }
 
  private:
   template <class Landmarks>
@@ -166,7 +171,8 @@ class Map {
     const std::vector<Observation> moved = landmarks[index(from)].observations;
     for (const Observation& o : moved) {
       const auto& has = landmarks[index(into)].observations;
-      if (std::none_of(has.begin(), has.end(), [&](const Observation& p) { return p.keyframe == o.keyframe; }))
+      if (std::none_of(has.begin(), has.end(),
+                       [&](const Observation& p) { return p.keyframe == o.keyframe; }))
         observe(o);
     }
     landmarks[index(into)].visible += landmarks[index(from)].visible;

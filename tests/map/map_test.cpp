@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslam/map/map.hpp"
+
+#include <utility>
+
+#include "sslam/map/local_map.hpp"
+#include "support/catch.hpp"
+
+namespace {
+
+using namespace sslam;
+
+// A keyframe with `features` point features, none of them matched.
+Keyframe<double> bare_keyframe(std::size_t features) {
+  Keyframe<double> kf;
+  kf.frame.points.resize(features);
+  kf.point_landmarks.assign(features, kNone);
+  for (auto& p : kf.frame.points) p.pixel.setZero();
+  return kf;
+}
+
+// Three keyframes; point 0 is seen by all, point 1 by the first two.
+Map<double> small_map() {
+  Map<double> map;
+  for (int k = 0; k < 3; ++k) map.add_keyframe(bare_keyframe(4));
+  map.add_point({0, 0, 5}, 0);
+  map.add_point({1, 0, 5}, 0);
+  for (KeyframeId k = 0; k < 3; ++k) map.observe_point(0, k, 0);
+  for (KeyframeId k = 0; k < 2; ++k) map.observe_point(1, k, 1);
+  for (KeyframeId k = 0; k < 3; ++k) map.update_covisibility(k);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("Covisibility counts shared landmarks and is the same from both sides") {
+  const Map<double> map = small_map();
+  REQUIRE(map.keyframes[0].neighbours.size() == 2);
+  REQUIRE(map.keyframes[0].neighbours[0].keyframe == 1);
+  REQUIRE(map.keyframes[0].neighbours[0].shared == 2);
+  REQUIRE(map.keyframes[2].neighbours.size() == 2);
+  REQUIRE(map.keyframes[2].neighbours[0].shared == 1);
+}
+
+TEST_CASE("Erasing a landmark frees the features that saw it") {
+  Map<double> map = small_map();
+  map.erase_point(0);
+  REQUIRE_FALSE(map.points[0].alive);
+  for (const auto& kf : map.keyframes) REQUIRE(kf.point_landmarks[0] == kNone);
+  REQUIRE(map.keyframes[0].point_landmarks[1] == 1);
+}
+
+TEST_CASE("A landmark that only one keyframe sees any more is erased") {
+  Map<double> map = small_map();
+  map.forget_point(1, 0);
+  REQUIRE_FALSE(map.points[1].alive);
+  REQUIRE(map.keyframes[1].point_landmarks[1] == kNone);
+  map.forget_point(0, 2);
+  REQUIRE(map.points[0].alive);
+  REQUIRE(map.points[0].observations.size() == 2);
+}
+
+TEST_CASE("Fusion hands observations over and keeps one for each keyframe") {
+  Map<double> map = small_map();
+  map.add_point({0, 0, 5}, 2);
+  map.observe_point(2, 2, 3);
+  map.observe_point(2, 1, 3);
+  map.fuse_points(2, 1);
+  REQUIRE_FALSE(map.points[2].alive);
+  REQUIRE(map.points[1].observations.size() == 3);
+  REQUIRE(map.keyframes[2].point_landmarks[3] == 1);
+  REQUIRE(map.keyframes[1].point_landmarks[3] == kNone);  // keyframe 1 saw point 1 already, by feature 1
+}
+
+TEST_CASE("A keyframe that joins with matches enters them and drops dead ones") {
+  Map<double> map = small_map();
+  map.erase_point(1);
+  Keyframe<double> kf = bare_keyframe(4);
+  kf.point_landmarks = {0, 1, kNone, kNone};
+  const KeyframeId id = map.add_keyframe(std::move(kf));
+  REQUIRE(map.points[0].observations.back().keyframe == id);
+  REQUIRE(map.keyframes[map.index(id)].point_landmarks[1] == kNone);
+}
+
+TEST_CASE("The local map lists each landmark once and keyframes by what they share") {
+  const Map<double> map = small_map();
+  LocalMap<double> local;
+  const std::vector<LandmarkId> points{kNone, 1};
+  local.gather(map, points, {}, 10);
+  REQUIRE(local.keyframes.size() == 3);
+  REQUIRE(local.keyframes.back() == 2);  // a neighbour that does not see point 1 itself
+  REQUIRE(local.points.size() == 2);
+  local.gather(map, points, {}, 2);
+  REQUIRE(local.keyframes.size() == 2);
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslam/track/pipeline.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "simulation.hpp"
+#include "support/catch.hpp"
+
+namespace {
+
+using namespace sslam;
+using namespace sslam::testing;
+
+template <class P>
+std::vector<TrackResult<double>> track_all(P& pipeline, Simulation& simulation) {
+  std::vector<TrackResult<double>> results;
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    Frame<double> frame = simulation.frame(k);
+    results.push_back(pipeline.track(frame));
+  }
+  return results;
+}
+
+// RMSE of the camera centres of the final trajectory. Scale, rotation and origin are free: they come from the
+// first entry, and from the longest distance to it.
+template <class P>
+double position_error(const P& pipeline, const Simulation& simulation) {
+  const auto& entries = pipeline.trajectory().entries();
+  std::vector<Vec3<double>> estimate, truth;
+  std::vector<SO3<double>> turns;
+  for (const auto& e : entries) {
+    const SE3<double> pose = pipeline.trajectory().pose(pipeline.map(), e).inverse();
+    const SE3<double> real = simulation.truth(static_cast<std::size_t>(e.index)).inverse();
+    estimate.push_back(pose.translation);
+    truth.push_back(real.translation);
+    turns.push_back(real.rotation * pose.rotation.inverse());
+  }
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    if ((truth[i] - truth[0]).norm() > (truth[far] - truth[0]).norm()) far = i;
+  const double scale = (truth[far] - truth[0]).norm() / (estimate[far] - estimate[0]).norm();
+  double sum = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    sum += (truth[0] + scale * (turns[0] * (estimate[i] - estimate[0])) - truth[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+int count(const std::vector<TrackResult<double>>& results, State state) {
+  return static_cast<int>(
+      std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.state == state; }));
+}
+
+}  // namespace
+
+TEST_CASE("The pipeline starts early and tracks a walk through a room") {
+  Simulation simulation(walk(150));
+  presets::Structure<double> pipeline;
+  const auto results = track_all(pipeline, simulation);
+  REQUIRE(count(results, State::kInitialising) < 30);
+  REQUIRE(count(results, State::kLost) == 0);
+  REQUIRE(count(results, State::kManhattan) > 100);
+  // The frames before the first map have their poses too.
+  REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
+  REQUIRE(position_error(pipeline, simulation) < 0.02);
+  REQUIRE(std::any_of(results.begin(), results.end(), [](const auto& r) { return r.axes_seen == 3; }));
+  REQUIRE(results.back().point_inliers > 50);
+  REQUIRE(results.back().line_inliers > 5);
+}
+
+TEST_CASE("A turn in place gives no map and says why") {
+  Simulation simulation(turn_in_place(60));
+  presets::Structure<double> pipeline;
+  const auto results = track_all(pipeline, simulation);
+  REQUIRE(count(results, State::kInitialising) == 60);
+  REQUIRE(pipeline.map().empty());
+  REQUIRE(std::count_if(results.begin(), results.end(),
+                        [](const auto& r) { return r.reason == Reason::kLowParallax; }) > 40);
+}
+
+TEST_CASE("The map starts once a turn in place becomes a walk") {
+  std::vector<SE3<double>> path = turn_in_place(30);
+  for (int k = 1; k <= 60; ++k) path.push_back(look({0.02 * k, 0, -2}, 0.3 * std::sin(29.0 / 30), 0.02));
+  Simulation simulation(path);
+  presets::Structure<double> pipeline;
+  const auto results = track_all(pipeline, simulation);
+  REQUIRE(results[29].state == State::kInitialising);
+  REQUIRE(results.back().has_pose());
+  REQUIRE(position_error(pipeline, simulation) < 0.03);  // of 1.2 m
+}
+
+TEST_CASE("Without a Manhattan world the fallback carries the whole walk") {
+  Simulation simulation(walk(120));
+  presets::Features<double> pipeline;
+  const auto results = track_all(pipeline, simulation);
+  REQUIRE(count(results, State::kManhattan) == 0);
+  REQUIRE(count(results, State::kFallback) > 80);
+  REQUIRE(position_error(pipeline, simulation) < 0.03);
+}
+
+TEST_CASE("A covered lens is a loss with a reason and the pose is found again") {
+  Simulation simulation(walk(140));
+  presets::Structure<double> pipeline;
+  std::vector<TrackResult<double>> results;
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    const bool covered = k >= 80 && k < 95;
+    Frame<double> frame = covered ? simulation.dark_frame(k) : simulation.frame(k);
+    results.push_back(pipeline.track(frame));
+  }
+  REQUIRE(results[80].state == State::kLost);
+  REQUIRE(results[80].reason == Reason::kTooFewMatches);
+  REQUIRE(results[94].state == State::kLost);
+  REQUIRE(std::any_of(results.begin() + 95, results.end(),
+                      [](const auto& r) { return r.reason == Reason::kRelocalised; }));
+  REQUIRE(results.back().has_pose());
+  REQUIRE(position_error(pipeline, simulation) < 0.03);
+}
+
+TEST_CASE("A frame without features never becomes a map") {
+  Simulation simulation(walk(5));
+  presets::Structure<double> pipeline;
+  for (std::size_t k = 0; k < 5; ++k) {
+    Frame<double> frame = simulation.dark_frame(k);
+    const auto result = pipeline.track(frame);
+    REQUIRE(result.state == State::kInitialising);
+    REQUIRE(result.reason == Reason::kTooFewFeatures);
+  }
+}
+
+TEST_CASE("The same frames give the same poses bit for bit") {
+  std::vector<Vec6<double>> runs[2];
+  for (auto& poses : runs) {
+    Simulation simulation(walk(80));
+    presets::Structure<double> pipeline;
+    track_all(pipeline, simulation);
+    for (const auto& e : pipeline.trajectory().entries())
+      poses.push_back(pipeline.trajectory().pose(pipeline.map(), e).log());
+  }
+  REQUIRE(runs[0].size() == runs[1].size());
+  for (std::size_t i = 0; i < runs[0].size(); ++i) REQUIRE((runs[0][i].array() == runs[1][i].array()).all());
+}
