@@ -8,11 +8,16 @@ import torch.nn.functional as F
 LOG_KAPPA_LIMITS = (-1.5, 4.5)
 
 
+LONE_CLASS_WEIGHT = 0.25  # of an image that shows planes alone, as rendered rooms do: it says little about the border
+
+
 def mask_loss(logit, planar, known):
     """Cross-entropy in which planar and non-planar pixels weigh the same (section III-B of the paper)."""
     loss = F.binary_cross_entropy_with_logits(logit, planar.float(), reduction="none")
-    positive, negative = planar & known, ~planar & known
-    return 0.5 * (loss[positive].sum() / positive.sum().clamp_min(1) + loss[negative].sum() / negative.sum().clamp_min(1))
+    positive, negative = (planar & known).float(), (~planar & known).float()
+    both = negative.sum(dim=(1, 2), keepdim=True) > 0
+    positive = positive * torch.where(both, 1.0, LONE_CLASS_WEIGHT)
+    return 0.5 * sum((loss * w).sum() / w.sum().clamp_min(1) for w in (positive, negative))
 
 
 def normal_loss(raw, log_kappa, target, planar, cosine_weight):
