@@ -25,8 +25,7 @@ class Decor {
       : scene_(scene), richness_(richness), texel_m_(texel_m), random_(seed) {
     wall_ = tone(0.72f, 0.9f, 0.04f);
     floor_ = tone(0.42f, 0.62f, 0.07f);
-    trim_ = {tone(0.8f, 0.95f, 0.02f)};
-    if (random_.below(2) == 0) trim_ = {tone(0.3f, 0.5f, 0.08f)};
+    trim_ = random_.below(2) == 0 ? plain(0.3f, 0.5f) : plain(0.8f, 0.95f);
   }
 
   [[nodiscard]] bool textured() {
@@ -58,7 +57,7 @@ class Decor {
 
   // Wood or lacquer for one piece of furniture; pieces share a few sheets of wood.
   Paint furniture() {
-    if (!textured()) return {tone(0.35f, 0.85f, 0.08f)};
+    if (!textured()) return plain(0.3f, 0.9f);
     if (sheets_.empty() || (sheets_.size() < 3 && random_.below(2) == 0)) {
       const Pattern pattern = sheets_.size() == 1 ? Pattern::kSpeckle : Pattern::kWood;
       sheets_.push_back(scene_.add(bake_pattern(pattern, kSheet, kSheet, 0.8f * texel_m_, bits())));
@@ -74,11 +73,19 @@ class Decor {
     return paint;
   }
 
-  Paint plain(float low, float high) { return {tone(low, high, 0.1f)}; }
+  // In a poor house everything comes close to the colour of the walls.
+  Paint plain(float low, float high) {
+    const Vec3<float> colour = tone(low, high, 0.1f);
+    if (richness_ != Richness::kPoor) return {colour};
+    return {wall_ + 0.45f * (colour - wall_)};
+  }
+
   Paint poster(float width, float height) { return printed(bake_poster(width, height, 0.002f, bits())); }
   Paint books(float width, float height) { return printed(bake_books(width, height, 0.002f, bits())); }
+  // What a window shows: the sky alone, overexposed, from a poor house.
   Paint outdoors(float width, float height) {
-    Paint paint = printed(bake_outdoors(width, height, 0.01f, bits()));
+    Paint paint = {Vec3<float>::Constant(0.95f)};
+    if (richness_ != Richness::kPoor) paint = printed(bake_outdoors(width, height, 0.01f, bits()));
     paint.glows = true;
     return paint;
   }

@@ -13,6 +13,12 @@
 
 namespace sslam::synth {
 
+// Bends bright values softly towards a limit, as film and cameras do.
+[[nodiscard]] inline double shoulder(double value) noexcept {
+  constexpr double kStart = 0.85, kRoom = 0.25;
+  return value <= kStart ? value : kStart + kRoom * (1.0 - std::exp((kStart - value) / kRoom));
+}
+
 // Turns irradiance into factors on display values (gamma 2.2), with the exposure that shows white paint at
 // options.mean_display on average over the area of all faces.
 inline void expose_light_maps(Scene& scene, const LightingOptions& options) {
@@ -26,7 +32,7 @@ inline void expose_light_maps(Scene& scene, const LightingOptions& options) {
   const double gain = sum > 0.0 ? std::pow(options.mean_display, 2.2) * area / sum : 1.0;
   for (Face& face : scene.faces) {
     for (float& node : face.light.nodes) {
-      node = static_cast<float>(std::min(std::pow(gain * node, 1.0 / 2.2), 1.25));
+      node = static_cast<float>(shoulder(std::pow(gain * node, 1.0 / 2.2)));
     }
   }
 }
