@@ -11,7 +11,7 @@ namespace sslam::cli {
 FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
     : dataset_(dataset), settings_(std::move(settings)) {
   frontend_.camera = settings_.camera;
-  frontend_.normals = settings_.normals;
+  frontend_.normals = std::move(settings_.normals);
   if (dataset_.layout == io::Layout::kVideo) video_.open(dataset_.root.string());
   producer_ = std::thread([this] { produce(); });
 }
@@ -98,7 +98,7 @@ cv::Mat FrameStream::decode(const io::FrameEntry& entry, std::string& why) {
 }
 
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {
-  if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(settings_.normals.source)) return;
+  if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(frontend_.normals.source)) return;
   input.depth_factor = settings_.depth_factor;
   std::string why;
   input.depth = load_depth(entry.depth, dataset_.layout, why);

@@ -2,30 +2,43 @@
 #include "cli/normal_choice.hpp"
 
 #include <filesystem>
+#include <utility>
 
+#include "cli/shipped_model.hpp"
 #include "sslam/io/error.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Without an encoding.txt beside the images: that of the normals published with the paper's code.
+FileNormals open_files(const fs::path& folder) {
+  FileNormals files;
+  files.options.folder = folder;
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    throw io::Error("--normals files:" + folder.string() +
+                    ": no such folder; it wants one with an image of normals for each frame");
+  }
+  const fs::path encoding = folder / "encoding.txt";
+  if (fs::exists(encoding, ignored) && !parse_normal_encoding(io::read_text(encoding), files.options)) {
+    throw io::Error(encoding.string() + ": expected one axis for each channel, such as 'r=+x g=+y b=+z'");
+  }
+  return files;
+}
+
+}  // namespace
 
 NormalChoice choose_normals(const std::string& text) {
-  NormalChoice choice;
-  if (text == "none") return choice;
-  if (text == "depth") {
-    choice.source = DepthNormals{};
-    return choice;
-  }
-  constexpr std::string_view kFiles = "files:";
-  if (text.starts_with(kFiles)) {
-    FileNormals files;
-    files.options.folder = text.substr(kFiles.size());
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(files.options.folder, ignored))
-      throw io::Error("--normals " + text +
-                      ": no such folder; files:DIR wants a folder with one image of normals a frame");
-    choice.source = std::move(files);
-    return choice;
-  }
-  throw io::Error("--normals " + text + ": not known; use none, depth or files:DIR");
+  constexpr std::string_view kFiles = "files:", kOnnx = "onnx:";
+  if (text == "none") return {NoNormals{}};
+  if (text == "depth") return {DepthNormals{}};
+  if (text == "onnx") return {OnnxNormals(shipped_model())};
+  if (text.starts_with(kFiles)) return {open_files(text.substr(kFiles.size()))};
+  if (text.starts_with(kOnnx)) return {OnnxNormals(text.substr(kOnnx.size()))};
+  throw io::Error("--normals " + text + ": not known; use none, depth, files:DIR, onnx or onnx:FILE");
 }
 
 }  // namespace sslam::cli

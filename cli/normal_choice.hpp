@@ -2,16 +2,18 @@
 // The normal source that the user chose at run time, behind the front end's concept.
 #pragma once
 
+#include <string>
 #include <variant>
 
 #include "sslam/opencv/depth_normals.hpp"
 #include "sslam/opencv/file_normals.hpp"
 #include "sslam/opencv/no_normals.hpp"
+#include "sslam/opencv/onnx_normals.hpp"
 
 namespace sslam::cli {
 
 struct NormalChoice {
-  std::variant<NoNormals, DepthNormals, FileNormals> source;
+  std::variant<NoNormals, DepthNormals, FileNormals, OnnxNormals> source;
 
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
@@ -19,7 +21,8 @@ struct NormalChoice {
 };
 static_assert(NormalSource<NormalChoice>);
 
-// From "none", "depth" or "files:DIR". Throws io::Error for anything else.
+// From "none", "depth", "files:DIR", "onnx" (the shipped model) or "onnx:FILE". Throws a std::exception with
+// one line for anything else, and for a folder or a model that does not do.
 [[nodiscard]] NormalChoice choose_normals(const std::string& text);
 
 }  // namespace sslam::cli

@@ -88,7 +88,7 @@ void run(const RunSettings& settings) {
   stream_settings.normals = choose_normals(settings.normals);
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
-  FrameStream stream(dataset, stream_settings);
+  FrameStream stream(dataset, std::move(stream_settings));
   Progress progress(stream.size(), settings.verbosity);
   const RunOutcome outcome = preset.run(stream, track, progress);
   print_warnings(outcome.warnings);
@@ -114,7 +114,10 @@ void add_run_command(CLI::App& app) {
       ->required();
   command->add_option("--camera", s->camera,
                       "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names());
-  command->add_option("--normals", s->normals, "Surface normals: none (lines alone), depth, or files:DIR")
+  command
+      ->add_option("--normals", s->normals,
+                   "Surface normals: none (lines alone), depth, files:DIR, onnx (the network that comes with "
+                   "sslam) or onnx:FILE")
       ->capture_default_str();
   std::string presets = "What the pipeline is made of:";
   for (const Preset& preset : kPresets)

@@ -88,7 +88,11 @@ void prepare_synth_folder(const SynthSettings& settings) {
     fs::remove(folder / list, ignored);
   io::prepare_output_folder(folder / "rgb");
   if (settings.depth) io::prepare_output_folder(folder / "depth");
-  if (settings.normals) io::prepare_output_folder(folder / "normals");
+  if (!settings.normals) return;
+  io::prepare_output_folder(folder / "normals");
+  io::OutputFile encoding(folder / "normals" / "encoding.txt");
+  encoding.stream() << "r=+x g=+y b=+z\n";  // as write_normals stores them
+  encoding.commit();
 }
 
 void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std::vector<std::uint8_t>& rgb) {

@@ -4,8 +4,7 @@
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
+using Catch::Approx;  // version 2 puts it there by itself
 #else
 #include <catch2/catch.hpp>
 #endif
-
-using Catch::Approx;

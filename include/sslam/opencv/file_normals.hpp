@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "sslam/opencv/normal_grid.hpp"
 #include "sslam/opencv/normal_source.hpp"
@@ -23,6 +25,29 @@ struct FileNormalsOptions {
   double max_norm_error = 0.15;            // of a stored vector from unit length: beyond, it is no normal
   PlanarMaskOptions mask;
 };
+
+// Which channel holds which axis: three cells such as "r=+x g=+y b=+z" in any order. False, with the options
+// as they were, when the text is none.
+[[nodiscard]] inline bool parse_normal_encoding(const std::string& text, FileNormalsOptions& options) {
+  constexpr std::string_view kChannels = "bgr", kAxes = "xyz";
+  FileNormalsOptions parsed = options;
+  std::array<bool, 3> channel_seen{}, axis_seen{};
+  std::istringstream cells(text);
+  std::string cell;
+  int count = 0;
+  for (; cells >> cell; ++count) {
+    if (cell.size() != 4 || cell[1] != '=' || (cell[2] != '+' && cell[2] != '-')) return false;
+    const auto channel = kChannels.find(cell[0]), axis = kAxes.find(cell[3]);
+    if (channel == kChannels.npos || axis == kAxes.npos || channel_seen[channel] || axis_seen[axis])
+      return false;
+    channel_seen[channel] = axis_seen[axis] = true;
+    parsed.channel[axis] = static_cast<int>(channel);
+    parsed.sign[axis] = cell[2] == '+' ? 1 : -1;
+  }
+  if (count != 3) return false;
+  options = parsed;
+  return true;
+}
 
 class FileNormals {
  public:
@@ -48,6 +73,7 @@ class FileNormals {
                  sy = static_cast<double>(camera.height) / stored.rows;
     if (std::abs(sx / sy - 1) > 0.02) return NormalStatus::kWrongSize;
     const int step = std::max(options.step, 1), first = step / 2;
+    int facing = 0, away = 0;
     grid_.reset((stored.cols - first + step - 1) / step, (stored.rows - first + step - 1) / step);
     for (int r = 0; r < grid_.rows; ++r) {
       for (int c = 0; c < grid_.columns; ++c) {
@@ -55,13 +81,16 @@ class FileNormals {
         const Vec3<double> n = value(stored, u, v);
         const double norm = n.norm();
         const Vec2<double> pixel((u + 0.5) * sx - 0.5, (v + 0.5) * sy - 0.5);
-        if (std::abs(norm - 1) > options.max_norm_error || n.dot(camera.pinhole.unproject(pixel)) >= 0)
-          continue;
+        if (std::abs(norm - 1) > options.max_norm_error) continue;
+        const bool faces = n.dot(camera.pinhole.unproject(pixel)) < 0;
+        ++(faces ? facing : away);
+        if (!faces) continue;
         const auto i = static_cast<std::size_t>(r * grid_.columns + c);
         grid_.normal[i] = (n / norm).cast<float>();
         grid_.weight[i] = 1;
       }
     }
+    if (away > facing) return NormalStatus::kFacesAway;
     keep_planar(grid_, options.mask, field);
     return NormalStatus::kOk;
   }

@@ -17,6 +17,7 @@ enum class NormalStatus : std::uint8_t {
   kUnreadable,  // a file is there, but cannot be decoded
   kWrongSize,   // the shape does not fit the camera's image
   kWrongType,   // number of channels or depth of the pixels
+  kFacesAway,   // most normals point away from the camera: the axes are stored in another order or sign
 };
 
 [[nodiscard]] constexpr const char* name(NormalStatus status) noexcept {
@@ -29,6 +30,8 @@ enum class NormalStatus : std::uint8_t {
       return "unreadable file of normals";
     case NormalStatus::kWrongSize:
       return "the shape of the normals' input does not fit the camera";
+    case NormalStatus::kFacesAway:
+      return "most normals point away from the camera (wrong order or sign of the axes?)";
     case NormalStatus::kWrongType:
       return "the normals' input has the wrong pixel type";
   }

@@ -25,46 +25,51 @@ class Backfill {
 
   void clear() { waiting_.clear(); }
 
-  // Tracks the waiting frames outwards from the first keyframe, one after the other in each direction, until
-  // one fails. The map's two keyframes are the first map; poses go into the log.
+  // Tracks the waiting frames one after the other, away from the two keyframes of the first map: between them
+  // from the first until one fails, then from the second; before them backwards. Poses go into the log.
   template <class Fallback, class Refinement>
   void run(Map<S>& map, Fallback& fallback, Refinement& refinement, TrajectoryLog<S>& log) {
-    const Keyframe<S>& reference = map.keyframes.front();
-    const auto after = std::find_if(waiting_.begin(), waiting_.end(), [&](const TrackedFrame<S>& f) {
-      return f.frame.index > reference.frame.index;
-    });
-    const auto split = static_cast<std::ptrdiff_t>(after - waiting_.begin());
-    const auto count = static_cast<std::ptrdiff_t>(waiting_.size());
-    sweep(split, count, 1, map, fallback, refinement, log);
-    const bool holds_reference =
-        split > 0 && waiting_[static_cast<std::size_t>(split - 1)].frame.index == reference.frame.index;
-    sweep(split - 1 - (holds_reference ? 1 : 0), -1, -1, map, fallback, refinement, log);
+    const Keyframe<S>& first = map.keyframes.front();
+    const Keyframe<S>& second = map.keyframes.back();
+    const auto position = [&](std::int64_t index) {  // of the first waiting frame that is not before `index`
+      const auto at = std::find_if(waiting_.begin(), waiting_.end(),
+                                   [&](const TrackedFrame<S>& f) { return f.frame.index >= index; });
+      return at - waiting_.begin();
+    };
+    const auto sweep = [&](const Keyframe<S>& from, std::ptrdiff_t begin, std::ptrdiff_t end,
+                           std::ptrdiff_t step) {
+      previous_.point_landmarks = from.point_landmarks;
+      previous_.line_landmarks = from.line_landmarks;
+      previous_.cam_from_world = from.cam_from_world;
+      std::ptrdiff_t i = begin;
+      for (; i != end; i += step)
+        if (!track(waiting_[static_cast<std::size_t>(i)], from.id, map, fallback, refinement, log)) break;
+      return i;
+    };
+    const std::ptrdiff_t after_first = position(first.frame.index + 1);
+    const std::ptrdiff_t failed = sweep(first, after_first, position(second.frame.index), 1);
+    sweep(second, position(second.frame.index) - 1, failed - 1, -1);
+    sweep(first, position(first.frame.index) - 1, -1, -1);
     waiting_.clear();
   }
 
  private:
   template <class Fallback, class Refinement>
-  void sweep(std::ptrdiff_t from, std::ptrdiff_t to, std::ptrdiff_t step, Map<S>& map, Fallback& fallback,
+  bool track(TrackedFrame<S>& frame, KeyframeId reference, Map<S>& map, Fallback& fallback,
              Refinement& refinement, TrajectoryLog<S>& log) {
-    const Keyframe<S>& reference = map.keyframes.front();
-    TrackedFrame<S> previous;
-    previous.point_landmarks = reference.point_landmarks;
-    previous.line_landmarks = reference.line_landmarks;
-    previous.cam_from_world = reference.cam_from_world;
-    for (std::ptrdiff_t i = from; i != to; i += step) {
-      TrackedFrame<S>& frame = waiting_[static_cast<std::size_t>(i)];
-      recent_.gather(previous, previous);
-      frame.cam_from_world = previous.cam_from_world;
-      if (!fallback.track(map, recent_, nullptr, frame).ok()) return;
-      if (!refinement.refine(map, nullptr, frame).ok()) return;
-      log.add(map, frame.frame.index, frame.frame.stamp, reference.id, frame.cam_from_world);
-      previous.point_landmarks = frame.point_landmarks;
-      previous.line_landmarks = frame.line_landmarks;
-      previous.cam_from_world = frame.cam_from_world;
-    }
+    recent_.gather(previous_, previous_);
+    frame.cam_from_world = previous_.cam_from_world;
+    if (!fallback.track(map, recent_, nullptr, frame).ok()) return false;
+    if (!refinement.refine(map, nullptr, frame).ok()) return false;
+    log.add(map, frame.frame.index, frame.frame.stamp, reference, frame.cam_from_world);
+    previous_.point_landmarks = frame.point_landmarks;
+    previous_.line_landmarks = frame.line_landmarks;
+    previous_.cam_from_world = frame.cam_from_world;
+    return true;
   }
 
   std::deque<TrackedFrame<S>> waiting_;
+  TrackedFrame<S> previous_;  // its matches and its pose alone
   RecentLandmarks<S> recent_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "sslam/solver/find_relative_pose.hpp"
@@ -25,6 +26,7 @@ class DecoupledInitialisation {
   int min_points = 20;             // landmarks that a first map must have
   S min_parallax = radians(S(1));  // of a landmark that counts
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
+  S max_rotation_sigma = radians(S(2));   // of a Manhattan rotation that is taken as known
   S scene_depth = 1;                      // median depth of the first map: sets the monocular scale
   RelativePoseOptions<S> refinement;
   std::uint64_t seed = 1;
@@ -95,13 +97,14 @@ class DecoupledInitialisation {
       bearings_.push_back({k.unproject(a.pixel), k.unproject(b.pixel), std::max(a.sigma, b.sigma) / k.fx});
     }
     inliers_.assign(bearings_.size(), 0);
-    RelativePoseSummary<S> summary;
-    if (reference_.manhattan && frame.manhattan) {
-      summary = decoupled(frame, R_10, t_10);
-    } else {
+    prepare_prior(frame);
+    RelativePoseSummary<S> summary = decoupled(R_10, t_10);
+    if (!usable(summary.status)) {
+      // No Manhattan frame, or one that the matches do not agree with.
       FindRelativePoseOptions<S> options;
       options.refinement = refinement;
-      summary = find_relative_pose<S>(bearings_, options, seed, R_10, t_10, inliers_);
+      const auto alone = find_relative_pose<S>(bearings_, options, seed, R_10, t_10, inliers_);
+      if (usable(alone.status) || summary.status == Status::kTooFew) summary = alone;
     }
     if (summary.status == Status::kLowParallax) return Reason::kLowParallax;
     if (!usable(summary.status)) return Reason::kNoConsensus;
@@ -109,22 +112,30 @@ class DecoupledInitialisation {
     return sigma < max_direction_sigma ? Reason::kFine : Reason::kLowParallax;
   }
 
-  // Rotation from the two Manhattan rotations, translation as a null vector, and a refinement of both in
-  // which the rotation is held by its covariance.
-  [[nodiscard]] RelativePoseSummary<S> decoupled(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10) {
-    R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
+  // The relative rotation that the two Manhattan rotations give, and its covariance, where both are there.
+  void prepare_prior(const TrackedFrame<S>& frame) {
+    prior_.reset();
+    if (!reference_.manhattan || !frame.manhattan) return;
+    const SO3<S> R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
     const Mat3<S> turn = R_10.matrix();
-    const Mat3<S> covariance =
-        frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose();
+    prior_ = {R_10, frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose()};
+  }
+
+  // Translation as a null vector with the Manhattan rotation, then a refinement of both in which the rotation
+  // is held by its covariance. kTooFew without a Manhattan rotation that can be trusted about every axis.
+  [[nodiscard]] RelativePoseSummary<S> decoupled(SO3<S>& R_10, Vec3<S>& t_10) {
+    if (!prior_) return {};
     TranslationOptions<S> options;
-    options.rotation_sigma = std::sqrt(covariance.trace() / 3);
-    const auto estimate = translation_from_rotation<S>(bearings_, R_10, options, seed);
+    options.rotation_sigma = std::sqrt(prior_->covariance.trace() / 3);
+    if (!(options.rotation_sigma < max_rotation_sigma)) return {};
+    const auto estimate = translation_from_rotation<S>(bearings_, prior_->cam_from_world, options, seed);
     if (!usable(estimate.status)) return {.status = estimate.status};
+    R_10 = prior_->cam_from_world;
     t_10 = estimate.t_10;
     RelativePoseOptions<S> held = refinement;
     held.start_sigma = options.rotation_sigma;
-    held.prior_R_10 = R_10;
-    held.prior_information = covariance.inverse();
+    held.prior_R_10 = prior_->cam_from_world;
+    held.prior_information = prior_->covariance.inverse();
     return refine_relative_pose<S>(bearings_, R_10, t_10, held, inliers_);
   }
 
@@ -178,6 +189,7 @@ class DecoupledInitialisation {
   bool has_reference_ = false;
   std::vector<Vec2<S>> last_pixels_;  // where each feature of the reference was last seen
   SO3<S> last_rotation_;
+  std::optional<RotationObservation<S>> prior_;  // frame from reference
   std::vector<IndexPair> pairs_;
   std::vector<BearingMatch<S>> bearings_;
   std::vector<std::uint8_t> inliers_;
