@@ -7,6 +7,7 @@
 
 #include "cli/camera_choice.hpp"
 #include "cli/commands.hpp"
+#include "cli/config_file.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/image_file.hpp"
 #include "cli/messages.hpp"
@@ -107,6 +108,7 @@ void run(const RunSettings& settings) {
 void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Track a sequence: trajectory, map, figures and pictures");
   auto s = std::make_shared<RunSettings>();
+  add_config_option(*command);
   command
       ->add_option(
           "dataset", s->dataset,
@@ -140,7 +142,6 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_flag_callback(
       "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
-  command->set_config("--config", "", "Options from a TOML file");
   command->callback([s] { run(*s); });
 }
 

@@ -3,7 +3,6 @@
 // synth_tests.cmake.
 #include <unistd.h>
 
-#include <sys/wait.h>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,30 +14,21 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "cli/program.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/trajectory.hpp"
 #include "sslam/opencv/camera_file.hpp"
 #include "support/catch.hpp"
 
 using namespace sslam;
+using sslam::testing::Outcome;
+using sslam::testing::run_program;
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Outcome {
-  int code;
-  std::string text;  // standard output and error together
-};
-
 Outcome synth(const std::string& arguments) {
-  const std::string command = std::string(SSLAM_COMMAND) + " synth " + arguments + " 2>&1";
-  std::FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string text;
-  std::array<char, 512> buffer;
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) text += buffer.data();
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+  return run_program("synth " + arguments);
 }
 
 // An empty folder of its own, gone at the end.

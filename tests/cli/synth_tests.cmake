@@ -4,7 +4,6 @@ file(REMOVE_RECURSE ${folder})
 file(MAKE_DIRECTORY ${folder}/foreign)
 file(WRITE ${folder}/foreign/rgb.txt "0.0 rgb/0.png\n")
 file(WRITE ${folder}/file "not a folder\n")
-set_source_files_properties(synth_test.cpp PROPERTIES COMPILE_DEFINITIONS "SSLAM_COMMAND=\"$<TARGET_FILE:sslam>\"")
 
 sslam_cli_test(NAME "synth tells how much and how fast" ARGS synth ${folder}/small --size 64x48 --frames 2 --texture poor
                OUT "small: 2 frames, 0\\.0 m, .* frames/s\n$" FILE ${folder}/small/rgb.txt

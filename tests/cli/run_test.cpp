@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam run` on a rendered room: what it writes, and what bad input gets.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+#include "io/scratch_folder.hpp"
+#include "support/catch.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using sslam::testing::Outcome;
+using sslam::testing::run_program;
+using sslam::testing::ScratchFolder;
+
+constexpr int kFrames = 60;
+
+// One rendered room for all tests of this program; each works on links to it, so that it can spoil a file.
+const fs::path& room() {
+  static const ScratchFolder scratch;
+  static const fs::path folder = [] {
+    const fs::path path = scratch.path() / "room";
+    const Outcome outcome = run_program("synth " + path.string() + " --quiet --frames " +
+                                        std::to_string(kFrames) + " --seed 3 --size 480x360");
+    if (outcome.code != 0) throw std::runtime_error(outcome.text);
+    return path;
+  }();
+  return folder;
+}
+
+struct Copy {
+  ScratchFolder scratch;
+  fs::path folder = scratch.path() / "room";
+  fs::path out = scratch.path() / "out";
+
+  Copy() { fs::copy(room(), folder, fs::copy_options::recursive); }
+
+  [[nodiscard]] Outcome run(const std::string& options = "") const {
+    return run_program("run " + folder.string() + " --quiet --out " + out.string() + " " + options);
+  }
+  [[nodiscard]] nlohmann::json metrics() const {
+    std::ifstream file(out / "metrics.json");
+    return nlohmann::json::parse(file);
+  }
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+// Exit code 1 and one line that names what is wrong.
+void require_refused(const Outcome& outcome, const std::string& what) {
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 1);
+  REQUIRE(outcome.text.find("sslam: error: ") == 0);
+  REQUIRE(outcome.text.find(what) != std::string::npos);
+  REQUIRE(outcome.text.find('\n') == outcome.text.size() - 1);
+}
+
+}  // namespace
+
+TEST_CASE("run tracks a rendered room and writes every file") {
+  const Copy copy;
+  const Outcome outcome = copy.run();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  for (const char* name : {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply", "frames.csv",
+                           "metrics.json", "topview.svg"})
+    REQUIRE(fs::file_size(copy.out / name) > 0);
+  const auto metrics = copy.metrics();
+  REQUIRE(metrics["frames"] == kFrames);
+  REQUIRE(metrics["share_tracked"].get<double>() >= 0.9);
+  REQUIRE(metrics["settings"]["parameters"].contains("rotation.squareness"));
+  REQUIRE(text_of(copy.out / "trajectory.txt").find("nan") == std::string::npos);
+}
+
+TEST_CASE("run gives the same bits again") {
+  const Copy copy;
+  REQUIRE(copy.run("--normals depth").code == 0);
+  const std::string first = text_of(copy.out / "trajectory.txt"), map = text_of(copy.out / "map.ply");
+  REQUIRE(copy.run("--normals depth").code == 0);
+  REQUIRE(text_of(copy.out / "trajectory.txt") == first);
+  REQUIRE(text_of(copy.out / "map.ply") == map);
+}
+
+TEST_CASE("run takes each source of normals and each preset") {
+  const Copy copy;
+  for (const std::string& options : std::vector<std::string>{
+           "--normals depth", "--normals files:" + (copy.folder / "normals").string(), "--preset paper",
+           "--preset points --normals depth", "--preset lines", "--preset features", "--preset odometry"}) {
+    const Outcome outcome = copy.run(options);
+    INFO(options << "\n" << outcome.text);
+    REQUIRE(outcome.code == 0);
+    REQUIRE(copy.metrics()["share_tracked"].get<double>() > 0.5);
+  }
+}
+
+TEST_CASE("run takes its options from a file and its parameters from the command line") {
+  const Copy copy;
+  write(copy.scratch.path() / "run.toml",
+        "stride = 2\npreset = \"features\"\n[set]\nkeyframes.max_turn = 9\n");
+  const Outcome outcome =
+      copy.run("--config " + (copy.scratch.path() / "run.toml").string() + " --set keyframes.min_gap=3");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const auto settings = copy.metrics()["settings"];
+  REQUIRE(settings["stride"] == 2);
+  REQUIRE(settings["preset"] == "features");
+  REQUIRE(settings["parameters"]["keyframes.min_gap"] == 3);
+  REQUIRE(settings["parameters"]["keyframes.max_turn"].get<double>() == Approx(9));
+  write(copy.scratch.path() / "typo.toml", "strid = 2\n");
+  require_refused(copy.run("--config " + (copy.scratch.path() / "typo.toml").string()),
+                  "'strid' is not an option");
+}
+
+TEST_CASE("run goes on over a single bad frame and names it") {
+  const Copy copy;
+  const std::string bytes = text_of(copy.folder / "rgb/000030.jpg");
+  write(copy.folder / "rgb/000030.jpg", bytes.substr(0, bytes.size() / 2));
+  const Outcome outcome = copy.run();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("000030.jpg: truncated image; frame skipped") != std::string::npos);
+}
+
+TEST_CASE("run goes on over an image of another size and names it") {
+  const Copy copy;
+  const ScratchFolder other;
+  REQUIRE(
+      run_program("synth " + (other.path() / "small").string() + " --quiet --frames 2 --size 64x48").code ==
+      0);
+  fs::copy_file(other.path() / "small/rgb/000000.jpg", copy.folder / "rgb/000030.jpg",
+                fs::copy_options::overwrite_existing);
+  const Outcome outcome = copy.run();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("000030.jpg: the image does not have the camera's size; frame skipped") !=
+          std::string::npos);
+}
+
+TEST_CASE("run warns about depth of another shape and uses lines alone for that frame") {
+  const Copy copy;
+  const ScratchFolder other;
+  REQUIRE(
+      run_program("synth " + (other.path() / "small").string() + " --quiet --frames 2 --size 64x64").code ==
+      0);
+  fs::copy_file(other.path() / "small/depth/000000.png", copy.folder / "depth/000030.png",
+                fs::copy_options::overwrite_existing);
+  const Outcome outcome = copy.run("--normals depth");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("000030.jpg: the shape of the normals' input does not fit") != std::string::npos);
+}
+
+TEST_CASE("run says when stored normals have another order of axes") {
+  const Copy copy;
+  write(copy.folder / "normals/encoding.txt", "r=-x g=-y b=-z\n");
+  const Outcome outcome = copy.run("--normals files:" + (copy.folder / "normals").string());
+  INFO(outcome.text);
+  REQUIRE(outcome.text.find("most normals point away from the camera") != std::string::npos);
+}
+
+TEST_CASE("run refuses what it cannot use with one line") {
+  const Copy copy;
+  const auto scratch = [&](const std::string& name) { return (copy.scratch.path() / name).string(); };
+  require_refused(run_program("run " + scratch("nowhere")), "nowhere: no such file or folder");
+  fs::create_directories(scratch("empty"));
+  require_refused(run_program("run " + scratch("empty")), "empty: the folder is empty");
+  require_refused(copy.run("--normals velvet"), "--normals velvet");
+  require_refused(copy.run("--normals onnx:" + (copy.folder / "camera.yaml").string()), "camera.yaml");
+  require_refused(copy.run("--preset velvet"), "--preset velvet");
+  require_refused(copy.run("--set keyframes.min_gap=many"), "--set keyframes.min_gap=many");
+  require_refused(copy.run("--set keyframes.gap=2"), "no such parameter");
+  require_refused(copy.run("--start 1000"), "no frame from 1000");
+  write(copy.folder / "camera.yaml",
+        "%YAML:1.0\n---\nCamera.fx: 360.0\nCamera.fy: .nan\nCamera.cx: 239.5\nCamera.cy: 179.5\n");
+  require_refused(copy.run(), "Camera.fy");
+}
+
+TEST_CASE("run refuses an output that cannot be written before it starts") {
+  const Copy copy;
+  write(copy.scratch.path() / "out", "a file, not a folder");
+  require_refused(copy.run(), "out: cannot make this folder");
+}
+
+TEST_CASE("run refuses a ground truth on another clock") {
+  const Copy copy;
+  write(copy.folder / "groundtruth.txt", "9000.0 0 0 0 0 0 0 1\n9001.0 0 0 0 0 0 0 1\n");
+  require_refused(copy.run(), "groundtruth.txt: no overlap");
+}
+
+TEST_CASE("run writes what it has when it is interrupted") {
+  const Copy copy;
+  const Outcome outcome =
+      run_program("run " + copy.folder.string() + " --quiet --out " + copy.out.string(), "timeout -s INT 1 ");
+  INFO(outcome.text);
+  // A fast machine may be done within the second.
+  const bool interrupted =
+      outcome.text.find("interrupted; what had been computed was written") != std::string::npos;
+  if (!interrupted) WARN("the run was over before it could be interrupted");
+  REQUIRE(fs::exists(copy.out / "metrics.json"));
+  REQUIRE(copy.metrics()["interrupted"] == interrupted);
+}
+
+TEST_CASE("demo renders, tracks and says where to look") {
+  const ScratchFolder scratch;
+  const Outcome outcome = run_program("demo " + (scratch.path() / "demo").string() + " --frames 60");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("topview.svg") != std::string::npos);
+  REQUIRE(fs::exists(scratch.path() / "demo/run/map.ply"));
+}
