@@ -60,13 +60,16 @@ struct LmSummary {
 };
 
 // Whether the information matrix tells every direction of the tangent, up to rounding: a Cholesky
-// factorisation of the matrix scaled to a unit diagonal, so that the units of its rows do not matter.
+// factorisation of the matrix scaled to a unit diagonal, so that the units of its rows do not matter. A
+// diagonal entry that is the square of a rounding error is no information in any unit.
 template <Scalar S, int D>
 [[nodiscard]] bool is_observable(const Mat<S, D, D>& information) noexcept {
-  constexpr S kMinPivot = 64 * std::numeric_limits<S>::epsilon();
+  constexpr S kEpsilon = std::numeric_limits<S>::epsilon();
+  constexpr S kMinPivot = 64 * kEpsilon;
+  const S least = kEpsilon * std::sqrt(kEpsilon) * information.diagonal().maxCoeff();
   Vec<S, D> scale;
   for (int a = 0; a < D; ++a) {
-    if (!(information(a, a) > 0)) return false;
+    if (!(information(a, a) > least)) return false;
     scale[a] = 1 / std::sqrt(information(a, a));
   }
   Mat<S, D, D> l = scale.asDiagonal() * information * scale.asDiagonal();
@@ -169,7 +172,7 @@ template <Manifold X, class Problem, class S = ScalarOf<X>>
     damping = std::max(damping / 10, kMinDamping);
     if (settled) return finish(Status::kOk);
   }
-  if (!factored) return finish(Status::kDegenerate);
+  if (!factored && summary.iterations > 0) return finish(Status::kDegenerate);
   // Damped into standing still: no better state is near.
   return finish(damping >= kMaxDamping && comparable ? Status::kOk : Status::kNotConverged);
 }
