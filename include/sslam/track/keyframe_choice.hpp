@@ -11,7 +11,7 @@ namespace sslam {
 template <Scalar S>
 class SharedFeatureKeyframes {
  public:
-  S min_shared = S(0.8);        // share of the reference keyframe's landmarks that the frame still sees
+  S min_shared = S(0.5);        // share of the reference keyframe's landmarks that the frame still sees
   S max_baseline = S(0.08);     // distance to the reference keyframe over the median scene depth
   S max_turn = radians(S(12));  // rotation against the reference keyframe
   int min_gap = 2;              // frames between keyframes
