@@ -8,12 +8,14 @@
 #include <future>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "sslam/map/frame.hpp"
 #include "sslam/opencv/line_extractor.hpp"
 #include "sslam/opencv/no_normals.hpp"
 #include "sslam/opencv/normal_source.hpp"
 #include "sslam/opencv/orb_extractor.hpp"
+#include "sslam/opencv/undistorter.hpp"
 
 namespace sslam {
 
@@ -116,12 +118,24 @@ class ImageFrontend {
     for (auto& point : frame.points) point.pixel = camera.undistort_pixel(point.pixel);
   }
 
+  // Straight edges are straight, and whole, only in the undistorted image. What lies beyond the lens's view
+  // there is no evidence.
   void extract_lines(Frame<double>& frame) {
-    lines.extract(grey_, frame.lines);
-    for (auto& line : frame.lines)
-      line.segment = {camera.undistort_pixel(line.segment.start), camera.undistort_pixel(line.segment.end)};
+    lines.extract(undistorter_.undistort(grey_, camera), frame.lines);
+    if (camera.distortion.is_identity()) return;
+    std::erase_if(frame.lines, [&](const LineFeature<double>& line) {
+      return !seen(line.segment.start) || !seen(line.segment.end) || !seen(line.segment.midpoint());
+    });
   }
 
+  [[nodiscard]] bool seen(const Vec2<double>& undistorted) const noexcept {
+    const Vec2<double> pixel = camera.distort_pixel(undistorted);
+    const double border = lines.options.border;
+    return pixel.x() >= border && pixel.y() >= border && pixel.x() <= camera.width - 1 - border &&
+           pixel.y() <= camera.height - 1 - border;
+  }
+
+  Undistorter undistorter_;
   cv::Mat grey_;
 };
 

@@ -20,6 +20,7 @@ namespace sslam {
 
 struct LineOptions {
   int octaves = 1;                 // 1: half resolution; 2: full resolution as well
+  double gradient_error = 1;       // LSD's bound on it, grey levels: lower finds fainter edges
   double min_length_ratio = 0.04;  // of a segment, over the longer side of the image
   int border = 4;                  // segments that run along the border within this many pixels are artefacts
   int max_lines = 250;             // longest kept
@@ -39,16 +40,17 @@ class LineExtractor {
     constexpr int kMinSide = 32;
     if (grey.empty() || grey.type() != CV_8UC1 || std::min(grey.cols, grey.rows) < kMinSide) return;
     cv::resize(grey, half_, {(grey.cols + 1) / 2, (grey.rows + 1) / 2}, 0, 0, cv::INTER_AREA);
+    prepare_detectors();
     detect(half_, *lsd_half_, grey.size());
     if (options.octaves > 1) detect(grey, *lsd_full_, grey.size());
-    merge_segments(segments_, options.merge);
     const double min_length = options.min_length_ratio * std::max(grey.cols, grey.rows);
-    for (const auto& segment : segments_) {
-      if (static_cast<int>(lines.size()) >= options.max_lines) break;
-      if (segment.length() < 0.8 * min_length) continue;
-      const RefinedSegment refined = SegmentRefiner::refine(grey, segment, options.refine);
-      if (!refined.found || refined.segment.length() < min_length || on_border(refined.segment, grey.size()))
-        continue;
+    // The first fit brings the pieces of one edge onto one line, so that the second round can join the rest.
+    merger_.merge(segments_, options.merge);
+    refine(grey, 0.7 * min_length, options.refine.reach);
+    merger_.merge(segments_, options.merge);
+    refine(grey, min_length, 1);
+    for (const RefinedSegment& refined : refined_) {
+      if (on_border(refined.segment, grey.size())) continue;
       LineFeature<double> line;
       line.segment = refined.segment;
       line.sigma = refined.sigma;
@@ -58,6 +60,31 @@ class LineExtractor {
   }
 
  private:
+  void prepare_detectors() {
+    if (gradient_error_ == options.gradient_error) return;
+    gradient_error_ = options.gradient_error;
+    lsd_half_ = cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 1.0, 0.6, gradient_error_);
+    lsd_full_ = cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 0.8, 0.6, gradient_error_);
+  }
+
+  // Replaces segments_ by what their fit to the image leaves of them; refined_ says the same with
+  // uncertainty.
+  void refine(const cv::Mat& grey, double min_length, double reach) {
+    SegmentRefineOptions refine_options = options.refine;
+    refine_options.reach = reach;
+    refined_.clear();
+    for (const auto& segment : segments_) {
+      if (segment.length() < 0.8 * min_length) continue;
+      const RefinedSegment refined = SegmentRefiner::refine(grey, segment, refine_options);
+      if (refined.found && refined.segment.length() >= min_length) refined_.push_back(refined);
+    }
+    std::stable_sort(refined_.begin(), refined_.end(),
+                     [](const auto& a, const auto& b) { return a.segment.length() > b.segment.length(); });
+    refined_.resize(std::min(refined_.size(), static_cast<std::size_t>(std::max(options.max_lines, 0))));
+    segments_.clear();
+    for (const RefinedSegment& refined : refined_) segments_.push_back(refined.segment);
+  }
+
   void detect(const cv::Mat& image, cv::LineSegmentDetector& lsd, cv::Size full) {
     lsd.detect(image, found_);
     const double sx = static_cast<double>(full.width) / image.cols,
@@ -118,12 +145,14 @@ class LineExtractor {
     return cv::line_descriptor::BinaryDescriptor::createBinaryDescriptor(params);
   }
 
-  cv::Ptr<cv::LineSegmentDetector> lsd_half_ = cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 1.0);
-  cv::Ptr<cv::LineSegmentDetector> lsd_full_ = cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 0.8);
+  double gradient_error_ = -1;  // of the detectors below
+  cv::Ptr<cv::LineSegmentDetector> lsd_half_, lsd_full_;
   cv::Ptr<cv::line_descriptor::BinaryDescriptor> lbd_ = make_lbd();
   cv::Mat half_, descriptors_;
   std::vector<cv::Vec4f> found_;
   std::vector<Segment2<double>> segments_;
+  std::vector<RefinedSegment> refined_;
+  SegmentMerger merger_;
   std::vector<cv::line_descriptor::KeyLine> keylines_;
 };
 

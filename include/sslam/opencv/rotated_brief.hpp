@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "sslam/core/descriptor.hpp"
-#include "sslam/core/random.hpp"
+#include "sslam/opencv/brief_tests.hpp"
 
 namespace sslam {
 
@@ -18,8 +18,8 @@ class RotatedBrief {
  public:
   static constexpr int kRadius = 15;  // pixels around a corner that orientation and tests look at
 
-  explicit RotatedBrief(std::uint64_t seed = 1) {
-    draw_tests(seed);
+  RotatedBrief() {
+    turn_tests();
     for (int v = 0; v <= kRadius; ++v)
       half_width_[static_cast<std::size_t>(v)] =
           static_cast<int>(std::sqrt(double(kRadius * kRadius - v * v)) + 0.5);
@@ -55,7 +55,7 @@ class RotatedBrief {
     std::size_t i = 0;
     for (auto& word : descriptor.words) {
       for (int bit = 0; bit < 64; ++bit, ++i) {
-        const Test& t = tests[i];
+        const BriefTest& t = tests[i];
         const bool less = centre[t.ay * stride + t.ax] < centre[t.by * stride + t.bx];
         word |= static_cast<std::uint64_t>(less) << bit;
       }
@@ -64,42 +64,27 @@ class RotatedBrief {
   }
 
  private:
-  static constexpr int kTurns = 64;  // orientations for which the tests are prepared
-  struct Test {
-    std::int8_t ax, ay, bx, by;
-  };
+  static constexpr std::size_t kTurns = 64;  // orientations for which the tests are prepared
 
   [[nodiscard]] static std::size_t turn_of(float angle) noexcept {
     const int turn = static_cast<int>(std::lround(angle * (kTurns / (2 * std::numbers::pi_v<float>))));
-    return static_cast<std::size_t>(turn & (kTurns - 1));
+    return static_cast<std::size_t>(turn) & (kTurns - 1);
   }
 
-  // Pairs of points, each drawn from an isotropic Gaussian over the disc (BRIEF's second scheme).
-  void draw_tests(std::uint64_t seed) {
-    Random random(seed);
-    const auto point = [&] {
-      for (;;) {
-        const double r = kSpread * std::sqrt(-2 * std::log(1 - random.uniform(0.0, 1.0)));
-        const double a = random.uniform(0.0, 2 * std::numbers::pi);
-        if (r < kRadius - 0.5) return std::array<double, 2>{r * std::cos(a), r * std::sin(a)};
-      }
-    };
-    for (std::size_t i = 0; i < 256; ++i) {
-      const auto a = point();
-      auto b = point();
-      while (std::hypot(a[0] - b[0], a[1] - b[1]) < 2) b = point();
-      for (int turn = 0; turn < kTurns; ++turn) {
-        const double c = std::cos(2 * std::numbers::pi * turn / kTurns);
-        const double s = std::sin(2 * std::numbers::pi * turn / kTurns);
-        const auto round = [](double v) { return static_cast<std::int8_t>(std::lround(v)); };
-        turned_[static_cast<std::size_t>(turn)][i] = {round(c * a[0] - s * a[1]), round(s * a[0] + c * a[1]),
-                                                      round(c * b[0] - s * b[1]), round(s * b[0] + c * b[1])};
+  void turn_tests() noexcept {
+    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(turn) / kTurns;
+      const double c = std::cos(angle), s = std::sin(angle);
+      const auto round = [](double v) { return static_cast<std::int8_t>(std::lround(v)); };
+      for (std::size_t i = 0; i < kBriefTests.size(); ++i) {
+        const BriefTest& t = kBriefTests[i];
+        turned_[turn][i] = {round(c * t.ax - s * t.ay), round(s * t.ax + c * t.ay),
+                            round(c * t.bx - s * t.by), round(s * t.bx + c * t.by)};
       }
     }
   }
 
-  static constexpr double kSpread = 31.0 / 5;  // standard deviation of a test point, pixels
-  std::array<std::array<Test, 256>, kTurns> turned_{};
+  std::array<std::array<BriefTest, 256>, kTurns> turned_{};
   std::array<int, kRadius + 1> half_width_{};
 };
 

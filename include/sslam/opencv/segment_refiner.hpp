@@ -33,16 +33,13 @@ class SegmentRefiner {
   [[nodiscard]] static RefinedSegment refine(const cv::Mat& image, const Segment2<double>& rough,
                                              const SegmentRefineOptions& options) noexcept {
     RefinedSegment refined{rough, 1, false};
-    for (int round = 0; round < 2; ++round) {
-      const Samples samples = sample(image, refined.segment, options);
-      if (!fit(samples, options, refined)) return {rough, 1, false};
-    }
+    if (!fit(sample(image, rough, options.reach), options, refined)) return {rough, 1, false};
     refined.found = true;
     return refined;
   }
 
  private:
-  static constexpr int kMaxSamples = 96;
+  static constexpr int kMaxSamples = 64;
   static constexpr int kMaxReach = 6;
   struct Edge {
     double along, across, strength;  // pixels from the midpoint; grey levels a pixel
@@ -67,12 +64,12 @@ class SegmentRefiner {
 
   // The place of the steepest rise along the normal at evenly spaced places of the segment.
   [[nodiscard]] static Samples sample(const cv::Mat& image, const Segment2<double>& s,
-                                      const SegmentRefineOptions& options) noexcept {
+                                      double max_offset) noexcept {
     Samples samples;
     const double length = s.length();
     const Vec2<double> d = (s.end - s.start) / length, normal(d.y(), -d.x());
     const int n = std::clamp(static_cast<int>(length), 8, kMaxSamples);
-    const int reach = std::clamp(static_cast<int>(std::lround(options.reach)), 1, kMaxReach);
+    const int reach = std::clamp(static_cast<int>(std::lround(max_offset)), 1, kMaxReach);
     samples.taken = n;
     samples.spacing = length / n;
     for (int i = 0; i < n; ++i) {
