@@ -22,8 +22,8 @@ struct ManhattanOptions {
   S kernel_per_scatter = S(1.5);
   S min_normal_share = S(0.05);  // of all normals, for an axis to be seen by them
   // How sure a plane's direction is: errors of its normals share this part of their variance, so that N of
-  // them count as 1 / 0.5 at most, and no number of votes removes the floor.
-  S normal_correlation = S(0.5);
+  // them count as 1 / 0.3 at most, and no number of votes removes the floor.
+  S normal_correlation = S(0.3);
   S normal_floor = radians(S(0.3));
   S normal_votes = 40;           // against segments, all normals of a view count as so many independent votes
   std::size_t coarse_every = 8;  // while the kernel narrows, one block of normals in so many is read
@@ -35,8 +35,8 @@ struct ManhattanOptions {
   S min_line_gain = S(8);  // for an axis to be seen by them: log-likelihood with it over that without
 
   // The frame.
-  S max_deviation = radians(S(5));  // standard deviation, by votes alone, up to which a rotation is observed
-  S max_jump = radians(S(45));      // a turn from the prior by more than this is a flip, not a motion
+  S max_deviation = radians(S(10));  // standard deviation, by votes alone, up to which a rotation is observed
+  S max_jump = radians(S(45));       // a turn from the prior by more than this is a flip, not a motion
 };
 
 // The predicted rotation, and how far it may be off: the covariance of its left perturbation, camera frame,
@@ -55,6 +55,7 @@ struct AxisSupport {
   S normal_share = 0;    // share of all normals that belong to this axis, without the clutter under its cone
   S normal_scatter = 0;  // standard deviation of those normals about their mode, per component, radians
   Vec2<S> mode = Vec2<S>::Zero();  // the normals' mode off axis k, along axes k+1 and k+2, radians
+  S mode_sigma = 0;                // standard deviation of the mode's direction, per component, radians
   S lines = 0;      // number of segments, each counted by its probability to belong to this axis
   S line_gain = 0;  // log-likelihood of the segments with this axis over that without it
 };

@@ -92,12 +92,10 @@ class FrameRefiner {
   // Segments speak for an axis when they are likelier with it than by chance, and when their planes meet in
   // it: pieces of one image line lie in one plane, through which a free axis can always be turned.
   [[nodiscard]] bool by_lines(std::size_t k) const noexcept {
+    constexpr S kMeeting = radians(S(5));  // standard deviation of the direction in which the planes meet
     return round_.gain[k] >= options_.min_line_gain &&
-           (modes_.modes[k].seen || weakest(round_.systems[k].H) >= enough());
+           (modes_.modes[k].seen || weakest(round_.systems[k].H) * kMeeting * kMeeting >= S(1));
   }
-
-  // Information that makes max_deviation, 1 / rad^2.
-  [[nodiscard]] S enough() const noexcept { return S(1) / (options_.max_deviation * options_.max_deviation); }
 
   // Linearises about rotation_ and returns the turn psi. While the gate is open every axis may pull: which
   // ones deserve it shows only at the end.
@@ -136,10 +134,11 @@ class FrameRefiner {
       axis.normal_scatter = modes_.modes[k].scatter;
       axis.by_normals = modes_.modes[k].seen;
       if (axis.by_normals) axis.mode = offsets_[k];
+      axis.mode_sigma = modes_.modes[k].sigma;
       axis.by_lines = by_lines(k);
       axis.lines = round_.count[k];
       axis.line_gain = round_.gain[k];
-      axis.seen = weakest(own_[k].H) >= enough();
+      axis.seen = axis.by_normals || axis.by_lines;
       estimate.axes_seen += axis.seen ? 1 : 0;
       if (!axis.by_lines) continue;
       squared += round_.squared[k];
@@ -151,9 +150,9 @@ class FrameRefiner {
     const S least = std::max(solver.eigenvalues()[0], S(0));
     estimate.deviation = S(1) / std::sqrt(std::max(least, S(0.1)));
     estimate.log_likelihood = round_.log_likelihood;
-    estimate.status = estimate.axes_seen == 0 ? Status::kNoConsensus
-                      : least < enough()      ? Status::kDegenerate
-                                              : Status::kOk;
+    estimate.status = estimate.axes_seen == 0                                          ? Status::kNoConsensus
+                      : least * options_.max_deviation * options_.max_deviation < S(1) ? Status::kDegenerate
+                                                                                       : Status::kOk;
     return estimate;
   }
 

@@ -38,7 +38,7 @@ namespace detail {
 // A peak stands out of the clutter when the kernel sees its spread: flat clutter has no finite one.
 template <Scalar S>
 [[nodiscard]] bool is_peak(const AxisMoments<S>& axis, S width, S total) noexcept {
-  constexpr S kMostGain = 12;     // scatter at most 3.3 kernel widths
+  constexpr S kMostGain = 12;                       // scatter at most 3.3 kernel widths
   constexpr S kDensityRatio = 2;                    // over directions spread evenly on the sphere
   const S chance = S(1.2) * width * width * total;  // the kernel's integral over that of a half sphere
   return axis.mass > kDensityRatio * chance && kernel_gain(axis.variance, width) < kMostGain;

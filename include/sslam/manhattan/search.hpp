@@ -16,13 +16,16 @@ struct SearchOptions {
   ManhattanOptions<S> rotation;       // of the refinement of each candidate
   S rank_width = radians(S(7));       // kernel width of normals while candidates are compared
   S rank_line_floor = radians(S(1));  // added to the segments' sigma meanwhile
-  S distinct = radians(S(6));         // frames closer than this (over the 24 namings) are the same
-  int pairs = 600;                    // random pairs of segments
+  int pairs = 600;                    // random pairs of segments whose meeting point is tried
   S peaks_apart = radians(S(20));     // between two peaks of the normals
   S points_apart = radians(S(8));     // between two vanishing points
-  S min_log_likelihood = 20;          // of an accepted frame over no structure: see find_manhattan
-  S min_axis_gain = 8;                // the same, of an axis over none in its place; two axes must have it
-  S max_ambiguity = S(0.9);           // an accepted frame is this much better than the next one that differs
+  S distinct = radians(S(6));         // frames closer than this (over the 24 namings) are the same
+
+  // What makes a frame believed. Log-likelihoods are over those of votes without structure.
+  S min_surprise = 7;        // of the whole frame, beyond the best that chance would find
+  S min_axis_gain = 8;       // of an axis over clutter in its place; two axes must have it
+  S max_skew = 2;            // of a plane's direction off its axis, in its standard deviations
+  S max_ambiguity = S(0.9);  // of the next best frame that differs, as a share of the best
 };
 
 namespace detail {
@@ -93,7 +96,7 @@ template <Scalar S, Scalar V>
     share += axis.normal_share;
   }
   const S wanted = share > S(0) ? options.kernel_per_scatter * scatter / share : options.widest_kernel;
-  const S width = std::clamp(wanted, options.narrowest_kernel, options.widest_kernel);
+  const S width = std::clamp(wanted, options.narrowest_kernel, S(2) * options.widest_kernel);
   const Mat3<S> axes = found.estimate.cam_from_manhattan.matrix();
   found.score = found.estimate.log_likelihood +
                 score_normals(sample, axes, width, options.normal_votes, 1, &found.gain);
@@ -105,9 +108,20 @@ template <Scalar S, Scalar V>
 template <Scalar S>
 [[nodiscard]] Status judge(const ScoredFrame<S>& best, const SearchOptions<S>& options) noexcept {
   if (!usable(best.estimate.status)) return best.estimate.status;
+  // Frames that can be told apart: the volume of SO(3) up to the 24 namings over that of the answer's
+  // uncertainty.
+  constexpr S kVolume = S(3.29);   // 8 pi^2 / 24, rad^3
+  constexpr S kNormal = S(15.75);  // (2 pi)^(3/2)
+  const S spread = kNormal * std::sqrt(std::max(best.estimate.covariance.determinant(), S(1e-30)));
+  const S chance = std::max(S(0), std::log(kVolume / spread));
   int sure = 0;
-  for (const S gain : best.gain) sure += gain >= options.min_axis_gain ? 1 : 0;
-  if (best.score < options.min_log_likelihood || sure == 0 || best.estimate.ambiguity > options.max_ambiguity)
+  for (std::size_t k = 0; k < 3; ++k) {
+    const AxisSupport<S>& axis = best.estimate.axes[k];
+    const bool square = axis.by_lines || axis.mode.norm() <= options.max_skew * axis.mode_sigma;
+    sure += best.gain[k] >= options.min_axis_gain && square ? 1 : 0;
+  }
+  if (best.score - chance < options.min_surprise || sure == 0 ||
+      best.estimate.ambiguity > options.max_ambiguity)
     return Status::kNoConsensus;
   return sure == 1 ? Status::kDegenerate : Status::kOk;
 }
@@ -117,11 +131,13 @@ template <Scalar S>
 // A Manhattan frame from votes alone; its axes are named so that the rotation is closest to the identity.
 //
 // A frame is accepted against chance: the likelihood ratio of votes without structure has mean 1 for any one
-// frame, and about exp(13) frames can be told apart, so a log-likelihood of 20 comes up by chance once in
-// exp(7) views. kTooFew: no votes. kDegenerate: only one axis stands out. kNoConsensus: no frame does, or two
-// that differ do equally well (see ambiguity). kNotFinite: a NaN or infinity in the votes. With these the
-// rotation is a guess, not to be used. Entry i of `axis_of`, if it is not empty, becomes the axis of segment
-// i, or -1.
+// frame, so chance finds the log-likelihood s among N distinct frames with odds N exp(-s) at most (Markov); N
+// is the volume of SO(3), up to the 24 namings, over that of the answer's covariance. Two planes that happen
+// to meet at a right angle, within what their normals can tell, are a frame like any other.
+//
+// kTooFew: no votes. kDegenerate: only one axis stands out. kNoConsensus: no frame does, or two that differ
+// do equally well (see ambiguity). kNotFinite: a NaN or infinity in the votes. With these the rotation is a
+// guess, not to be used. Entry i of `axis_of`, if it is not empty, becomes the axis of segment i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> find_manhattan(const NormalView<V>& normals,
                                                   std::span<const LineVote<S>> lines,
