@@ -161,8 +161,7 @@ class DecoupledInitialisation {
     const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
     std::nth_element(depths_.begin(), middle, depths_.end());
     const S scale = scene_depth / *middle;
-    // The reference sits at the world's origin, turned as its Manhattan rotation says.
-    reference_.cam_from_world.translation.setZero();
+    reference_.cam_from_world = {reference_rotation(frame, R_10), Vec3<S>::Zero()};
     frame.cam_from_world = {R_10 * reference_.cam_from_world.rotation, scale * t_10};
     reference_.forget_matches();
     frame.forget_matches();
@@ -178,6 +177,17 @@ class DecoupledInitialisation {
     map.update_covisibility(1);
     has_reference_ = false;
     return Reason::kFine;
+  }
+
+  // The reference sits at the world's origin. Its rotation is that of the Manhattan frame, by whichever of
+  // the two frames knows it better.
+  [[nodiscard]] SO3<S> reference_rotation(const TrackedFrame<S>& frame, const SO3<S>& R_10) const {
+    const bool by_reference =
+        reference_.manhattan &&
+        (!frame.manhattan || reference_.manhattan->covariance.trace() <= frame.manhattan->covariance.trace());
+    if (by_reference) return reference_.manhattan->cam_from_world;
+    if (frame.manhattan) return R_10.inverse() * frame.manhattan->cam_from_world;
+    return reference_.cam_from_world.rotation;
   }
 
   struct Seed {

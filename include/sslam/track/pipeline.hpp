@@ -69,8 +69,8 @@ class Pipeline {
     const SO3<S> predicted = last_->cam_from_world.rotation;
     const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, false);
     result.axes_seen = answer.axes_seen;
-    current_->cam_from_world = {current_->manhattan ? current_->manhattan->cam_from_world : predicted,
-                                Vec3<S>::Zero()};
+    const SO3<S>& rotation_now = answer.trusted ? current_->manhattan->cam_from_world : predicted;
+    current_->cam_from_world = {rotation_now, Vec3<S>::Zero()};
     timer.end(Stage::kRotation);
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
