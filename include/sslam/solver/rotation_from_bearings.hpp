@@ -135,13 +135,14 @@ template <Scalar S>
   Random random(seed);
   SO3<S> R = detail::RotationSearch<S>(matches, options, random).run(random);
   const S gate = options.max_error * options.max_error;
-  BearingEquations<S> sum;
-  for (int iteration = 0; iteration < 3; ++iteration) {
+  const auto tally = [&] {
     const Mat3<S> matrix = R.matrix();
-    sum = {};
-    for (const BearingMatch<S>& match : matches) sum.add(BearingPair<S>(match), matrix, gate);
-    if (!sum.step(R)) break;
-  }
+    BearingEquations<S> equations;
+    for (const BearingMatch<S>& match : matches) equations.add(BearingPair<S>(match), matrix, gate);
+    return equations;
+  };
+  BearingEquations<S> sum = tally();
+  for (int iteration = 0; iteration < 3 && sum.step(R); ++iteration) sum = tally();
   result.R_10 = R;
   result.inliers = sum.count;
   if (sum.count < options.min_inliers ||
