@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "cli/frame_record.hpp"
@@ -18,6 +19,9 @@ namespace sslam::cli {
 [[nodiscard]] RunOutcome run_paper(FrameStream&, const TrackSettings&, Progress&);     // preset_paper.cpp
 [[nodiscard]] RunOutcome run_features(FrameStream&, const TrackSettings&, Progress&);  // preset_features.cpp
 [[nodiscard]] RunOutcome run_odometry(FrameStream&, const TrackSettings&, Progress&);  // preset_odometry.cpp
+
+// Name, default, unit and meaning of every parameter of the fullest preset, a line each.
+[[nodiscard]] std::string describe_parameters();  // preset_structure.cpp
 
 struct Preset {
   std::string_view name;

@@ -3,6 +3,7 @@
 #include "cli/run.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "cli/camera_choice.hpp"
@@ -134,8 +135,13 @@ void add_run_command(CLI::App& app) {
   command->add_option("--stride", s->slice.stride, "Take every n-th frame")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  command->add_option("--set", s->set,
-                      "stage.parameter=value, as in metrics.json; angles in degrees; may be repeated");
+  command->add_option("--set", s->set, "stage.parameter=value, see --list-parameters; may be repeated");
+  const auto list = [] {
+    std::fputs(describe_parameters().c_str(), stdout);
+    throw CLI::Success();
+  };
+  command->add_flag_callback("--list-parameters", list, "Print what --set can change, and stop")
+      ->trigger_on_parse();
   command->add_option("--seed", s->seed, "Of everything random")->capture_default_str();
   command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
       ->capture_default_str()

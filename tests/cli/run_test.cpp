@@ -123,6 +123,13 @@ TEST_CASE("run takes its options from a file and its parameters from the command
                   "'strid' is not an option");
 }
 
+TEST_CASE("run lists its parameters without a dataset") {
+  const Outcome outcome = run_program("run --list-parameters");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("keyframes.min_shared") != std::string::npos);
+}
+
 TEST_CASE("run goes on over a single bad frame and names it") {
   const Copy copy;
   const std::string bytes = text_of(copy.folder / "rgb/000030.jpg");
