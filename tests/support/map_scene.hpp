@@ -17,6 +17,7 @@ struct MapSceneOptions {
   int points = 600;
   int lines = 80;
   double pixel_noise = 0.7;
+  double farthest = 100;  // depth to which anything is seen, metres
   double rotation_noise = radians(0.15);  // of a keyframe's Manhattan observation, about each axis
   std::uint64_t seed = 1;
 };
@@ -110,8 +111,8 @@ class MapScene {
     return line;
   }
 
-  [[nodiscard]] static bool inside(const Keyframe<double>& kf, const Vec3<double>& in_camera) {
-    if (in_camera.z() < 0.3) return false;
+  [[nodiscard]] bool inside(const Keyframe<double>& kf, const Vec3<double>& in_camera) const {
+    if (in_camera.z() < 0.3 || in_camera.z() > options_.farthest) return false;
     const Vec2<double> uv = kf.frame.pinhole.project(in_camera);
     return uv.x() > 0 && uv.y() > 0 && uv.x() < kf.frame.width && uv.y() < kf.frame.height;
   }

@@ -5,9 +5,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <span>
 #include <vector>
 
+#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/bundle_graph.hpp"
 
 namespace sslam {
@@ -19,8 +19,8 @@ struct BlockEquations {
 
   template <int Rows>
   void add(const Mat<S, Rows, D>& derivative, const Vec<S, Rows>& error, S weight) noexcept {
-    H.noalias() += derivative.transpose().lazyProduct(weight * derivative);
-    g.noalias() += derivative.transpose().lazyProduct(weight * error);
+    add_square<S, Rows, D>(derivative, weight, H);
+    add_product<S, Rows, D>(derivative, error, weight, g);
   }
 };
 
@@ -54,26 +54,23 @@ class LandmarkSide {
                  Right& right) {
     Mat<S, D, D> damped = landmarks[i].H;
     for (int a = 0; a < D; ++a) damped(a, a) += damping * std::max(damped(a, a), S(1e-9));
-    const Eigen::LLT<Mat<S, D, D>> factor(damped);
     roots_[i].setZero();  // a landmark that nothing fixes stays where it is
-    if (factor.info() != Eigen::Success) return;
-    roots_[i] = factor.matrixL().solve(Mat<S, D, D>::Identity());
+    if (!inverse_root<S, D>(damped, roots_[i])) return;
     const Vec<S, D> z = roots_[i] * landmarks[i].g;
     reduced_.resize(last - first);
     for (std::size_t e = first; e < last; ++e) {
       const std::int32_t row = mixed[e].slot;
       if (row == kHeldSlot) continue;
       Mat<S, 6, D>& y = reduced_[e - first];
-      y.noalias() = mixed[e].W.lazyProduct(roots_[i].transpose());
-      right.template segment<6>(6 * row) -= y * z;
+      y = times_transposed_lower<S, 6, D>(mixed[e].W, roots_[i]);
+      for (int d = 0; d < D; ++d)
+        for (int r = 0; r < 6; ++r) right[6 * row + r] -= y(r, d) * z[d];
       for (std::size_t f = first; f <= e; ++f) {
         const std::int32_t col = mixed[f].slot;
         if (col == kHeldSlot) continue;
         const Mat<S, 6, D>& other = reduced_[f - first];
-        if (row >= col)
-          system.template block<6, 6>(6 * row, 6 * col).noalias() -= y.lazyProduct(other.transpose());
-        if (row <= col && f != e)
-          system.template block<6, 6>(6 * col, 6 * row).noalias() -= other.lazyProduct(y.transpose());
+        if (row >= col) subtract_outer<S, 6, D>(y, other, &system(6 * row, 6 * col), system.rows());
+        if (row <= col && f != e) subtract_outer<S, 6, D>(other, y, &system(6 * col, 6 * row), system.rows());
       }
     }
   }
@@ -84,7 +81,7 @@ class LandmarkSide {
     Vec<S, D> right = -landmarks[i].g;
     for (std::size_t e = first; e < last; ++e)
       if (mixed[e].slot != kHeldSlot)
-        right -= mixed[e].W.transpose() * views.template segment<6>(6 * mixed[e].slot);
+        add_product<S, 6, D>(mixed[e].W, views.template segment<6>(6 * mixed[e].slot), S(-1), right);
     steps[i] = roots_[i].transpose() * (roots_[i] * right);
   }
 
@@ -187,7 +184,8 @@ class BundleEquations {
     if (slot == kHeldSlot) return;
     if (turning_[view] != 0) by_view.template rightCols<3>().setZero();
     views_[static_cast<std::size_t>(slot)].add(by_view, error, weight);
-    side.mixed[edge].W.noalias() = by_view.transpose().lazyProduct(weight * by_landmark);
+    side.mixed[edge].W.setZero();
+    add_product<S, 2, 6, D>(by_view, by_landmark, weight, side.mixed[edge].W);
   }
 
   template <class Landmarks, class F>
