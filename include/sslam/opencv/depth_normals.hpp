@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sslam/opencv/inverse_depth_blocks.hpp"
+#include "sslam/opencv/lens_table.hpp"
 #include "sslam/opencv/normal_grid.hpp"
 #include "sslam/opencv/normal_source.hpp"
 
@@ -39,23 +40,21 @@ class DepthNormals {
     const double scale = static_cast<double>(depth.cols) / camera.width;
     if (std::abs(scale * camera.height - depth.rows) > 1) return NormalStatus::kWrongSize;
     blocks_.build(depth, input.depth_factor, options.min_depth, options.max_depth, 3 * options.noise);
-    // The pinhole of the depth map's own pixels.
-    const Pinhole<double>& p = camera.pinhole;
-    const Pinhole<double> pinhole{p.fx * scale, p.fy * scale, (p.cx + 0.5) * scale - 0.5,
-                                  (p.cy + 0.5) * scale - 0.5};
+    lens_.prepare(camera, blocks_.columns(), blocks_.rows(), InverseDepthBlocks::kBlock, scale);
+    focal_ = camera.pinhole.fx * scale;
     grid_.reset(blocks_.columns(), blocks_.rows());
     for (int r = 0; r < grid_.rows; ++r)
-      for (int c = 0; c < grid_.columns; ++c) fit(r, c, pinhole);
+      for (int c = 0; c < grid_.columns; ++c) fit(r, c);
     keep_planar(grid_, options.mask, field);
     return NormalStatus::kOk;
   }
 
  private:
-  void fit(int r, int c, const Pinhole<double>& pinhole) {
+  void fit(int r, int c) {
     const DepthBlock& centre = blocks_.at(r, c);
     if (!centre.planar) return;
     const float z = 1 / std::max(centre.mean, 1e-6F);
-    const int radius = window_radius(z, pinhole);
+    const int radius = window_radius(z);
     InverseDepthPlane plane = centre.plane;
     DepthWindow window;
     // The first round trusts the centre's own small fit as far as it reaches, the second the fit of the
@@ -66,31 +65,29 @@ class DepthNormals {
       if (window.blocks < options.min_fill * window.possible || !window.sums.solve(plane)) return;
     }
     if (window.scatter() > 2 * options.block_noise) return;
-    set_normal(r, c, plane, pinhole, radius, window);
+    set_normal(r, c, plane, radius, window);
   }
 
   // Blocks on either side of the centre: an error of block_noise in each block's inverse depth turns the
   // normal of a window of w x w blocks by about f z noise sqrt(12) / (w^2 block).
-  [[nodiscard]] int window_radius(float z, const Pinhole<double>& pinhole) const noexcept {
+  [[nodiscard]] int window_radius(float z) const noexcept {
     const double target = radians(options.target_error_deg);
     const double width2 =
-        pinhole.fx * z * options.block_noise * std::sqrt(12.0) / (target * InverseDepthBlocks::kBlock);
+        focal_ * z * options.block_noise * std::sqrt(12.0) / (target * InverseDepthBlocks::kBlock);
     return std::clamp(static_cast<int>(std::ceil((std::sqrt(width2) - 1) / 2)), 1, options.max_radius);
   }
 
-  void set_normal(int r, int c, const InverseDepthPlane& plane, const Pinhole<double>& pinhole, int radius,
-                  const DepthWindow& window) {
+  void set_normal(int r, int c, const InverseDepthPlane& plane, int radius, const DepthWindow& window) {
     // 1 / z = m . (x, y, 1) in normalised coordinates, with m = n / (n . X) for any X on the plane.
-    const Vec2<double> pixel = blocks_.centre(r, c);
-    const double mx = plane.du * pinhole.fx, my = plane.dv * pinhole.fy;
-    const Vec3<double> ray = pinhole.unproject(pixel);
-    const Vec3<double> m(mx, my, plane.value - mx * ray.x() - my * ray.y());
+    const LensPatch& lens = lens_.at(r, c);
+    const Vec2<double> slope = lens.pixel_per_ray.transpose() * Vec2<double>(plane.du, plane.dv);
+    const Vec3<double> m(slope.x(), slope.y(), plane.value - slope.dot(lens.ray));
     const double norm = m.norm();
     if (!(norm > 1e-9) || !std::isfinite(norm)) return;
     const auto i = static_cast<std::size_t>(r * grid_.columns + c);
     grid_.normal[i] = (-m / norm).cast<float>();
     const double width = 2 * radius + 1;
-    const double error = pinhole.fx * options.block_noise * std::sqrt(12.0) /
+    const double error = focal_ * options.block_noise * std::sqrt(12.0) /
                          (plane.value * width * width * InverseDepthBlocks::kBlock);
     const double ratio = error / radians(options.target_error_deg);
     const double filled = static_cast<double>(window.blocks) / window.possible;
@@ -98,7 +95,9 @@ class DepthNormals {
   }
 
   InverseDepthBlocks blocks_;
+  LensTable lens_;
   NormalGrid grid_;
+  double focal_ = 1;  // of the depth map, pixels
 };
 static_assert(NormalSource<DepthNormals>);
 

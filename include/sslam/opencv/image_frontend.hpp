@@ -115,7 +115,11 @@ class ImageFrontend {
 
   void extract_points(Frame<double>& frame) {
     points.extract(grey_, frame.points);
-    for (auto& point : frame.points) point.pixel = camera.undistort_pixel(point.pixel);
+    if (camera.distortion.is_identity()) return;
+    std::erase_if(frame.points, [&](PointFeature<double>& point) {
+      point.pixel = camera.undistort_pixel(point.pixel);
+      return !seen(point.pixel, 0);
+    });
   }
 
   // Straight edges are straight, and whole, only in the undistorted image. What lies beyond the lens's view
@@ -124,15 +128,19 @@ class ImageFrontend {
     lines.extract(undistorter_.undistort(grey_, camera), frame.lines);
     if (camera.distortion.is_identity()) return;
     std::erase_if(frame.lines, [&](const LineFeature<double>& line) {
-      return !seen(line.segment.start) || !seen(line.segment.end) || !seen(line.segment.midpoint());
+      const double border = lines.options.border;
+      return !seen(line.segment.start, border) || !seen(line.segment.end, border) ||
+             !seen(line.segment.midpoint(), border);
     });
   }
 
-  [[nodiscard]] bool seen(const Vec2<double>& undistorted) const noexcept {
+  // Whether the lens sees this undistorted pixel, `border` or more pixels inside its image. The way back
+  // excludes the far field, which the distortion model folds into the image.
+  [[nodiscard]] bool seen(const Vec2<double>& undistorted, double border) const noexcept {
     const Vec2<double> pixel = camera.distort_pixel(undistorted);
-    const double border = lines.options.border;
     return pixel.x() >= border && pixel.y() >= border && pixel.x() <= camera.width - 1 - border &&
-           pixel.y() <= camera.height - 1 - border;
+           pixel.y() <= camera.height - 1 - border &&
+           (camera.undistort_pixel(pixel) - undistorted).norm() < 0.5;
   }
 
   Undistorter undistorter_;

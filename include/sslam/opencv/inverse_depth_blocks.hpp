@@ -106,9 +106,6 @@ class InverseDepthBlocks {
   [[nodiscard]] const DepthBlock& at(int r, int c) const noexcept {
     return blocks_[static_cast<std::size_t>(r * columns_ + c)];
   }
-  [[nodiscard]] Vec2<double> centre(int r, int c) const noexcept {
-    return {c * kBlock + (kBlock - 1) / 2.0, r * kBlock + (kBlock - 1) / 2.0};
-  }
 
   // The planar blocks around (r, c) whose mean lies within `tolerance` of `plane`, which is counted from that
   // block's centre; `slack` lets the tolerance grow by as much for each block of distance.
@@ -134,28 +131,41 @@ class InverseDepthBlocks {
   }
 
  private:
+  // Column by column, so that the compiler may use vector registers without reordering a sum.
   template <class T>
   static void sum(const cv::Mat& depth, int r, int c, float scale, float low, float high,
                   DepthBlock& block) noexcept {
-    InverseDepthSums& s = block.sums;
-    for (int v = 0; v < kBlock; ++v) {
-      const T* row = depth.ptr<T>(r * kBlock + v) + c * kBlock;
-      const float y = static_cast<float>(v) - (kBlock - 1) / 2.0F;
-      for (int u = 0; u < kBlock; ++u) {
-        const auto d = static_cast<float>(row[u]);
-        if (!(d >= low && d <= high)) continue;
-        const float x = static_cast<float>(u) - (kBlock - 1) / 2.0F, w = scale / d;
-        s.n += 1;
-        s.u += x;
-        s.v += y;
-        s.uu += x * x;
-        s.uv += x * y;
-        s.vv += y * y;
-        s.w += w;
-        s.uw += x * w;
-        s.vw += y * w;
-        s.ww += w * w;
+    constexpr auto kSide = static_cast<std::size_t>(kBlock);
+    constexpr float kMiddle = (kBlock - 1) / 2.0F;
+    float n[kSide] = {}, v[kSide] = {}, vv[kSide] = {}, w[kSide] = {}, vw[kSide] = {}, ww[kSide] = {};
+    for (std::size_t row = 0; row < kSide; ++row) {
+      const T* d = depth.ptr<T>(r * kBlock + static_cast<int>(row)) + c * kBlock;
+      const float y = static_cast<float>(row) - kMiddle;
+      for (std::size_t u = 0; u < kSide; ++u) {
+        const auto raw = static_cast<float>(d[u]);
+        const bool valid = raw >= low && raw <= high;
+        const float one = valid ? 1.0F : 0.0F, inverse = one * scale / (valid ? raw : 1.0F);
+        n[u] += one;
+        v[u] += one * y;
+        vv[u] += one * y * y;
+        w[u] += inverse;
+        vw[u] += inverse * y;
+        ww[u] += inverse * inverse;
       }
+    }
+    InverseDepthSums& s = block.sums;
+    for (std::size_t u = 0; u < kSide; ++u) {
+      const float x = static_cast<float>(u) - kMiddle;
+      s.n += n[u];
+      s.u += x * n[u];
+      s.v += v[u];
+      s.uu += x * x * n[u];
+      s.uv += x * v[u];
+      s.vv += vv[u];
+      s.w += w[u];
+      s.uw += x * w[u];
+      s.vw += vw[u];
+      s.ww += ww[u];
     }
   }
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sslam/geometry/camera.hpp"
+#include "sslam/opencv/same_camera.hpp"
 
 namespace sslam {
 
@@ -14,21 +14,12 @@ class Undistorter {
   // An image of the camera's size. Without distortion the result is the image itself, sharing its memory.
   [[nodiscard]] const cv::Mat& undistort(const cv::Mat& image, const Camera<double>& camera) {
     if (camera.distortion.is_identity()) return image;
-    if (!same(camera, camera_)) prepare(camera);
+    if (!same_camera(camera, camera_)) prepare(camera);
     cv::remap(image, undistorted_, coarse_, fine_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
     return undistorted_;
   }
 
  private:
-  [[nodiscard]] static bool same(const Camera<double>& a, const Camera<double>& b) noexcept {
-    const auto& p = a.pinhole;
-    const auto& q = b.pinhole;
-    const auto& d = a.distortion;
-    const auto& e = b.distortion;
-    return a.width == b.width && a.height == b.height && p.fx == q.fx && p.fy == q.fy && p.cx == q.cx &&
-           p.cy == q.cy && d.k1 == e.k1 && d.k2 == e.k2 && d.p1 == e.p1 && d.p2 == e.p2 && d.k3 == e.k3;
-  }
-
   void prepare(const Camera<double>& camera) {
     camera_ = camera;
     cv::Mat map(camera.height, camera.width, CV_32FC2);
