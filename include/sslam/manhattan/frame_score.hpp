@@ -63,11 +63,10 @@ template <Scalar S, Scalar V>
 template <Scalar S>
 [[nodiscard]] S score_lines(std::span<const LineVote<S>> lines, const Mat3<S>& cam_from_axes,
                             S floor) noexcept {
-  const Mat3<S> axes_from_cam = cam_from_axes.transpose();
   const LineShares<S> shares;
   S total = 0;
   for (const LineVote<S>& line : lines) {
-    const detail::LineLikelihood<S> like(line, axes_from_cam, floor);
+    const detail::LineLikelihood<S> like(line, cam_from_axes, floor);
     total += std::log(shares.clutter() + shares.axis[0] * like.ratio.sum());
   }
   return total;

@@ -66,9 +66,9 @@ struct LineLikelihood {
   Vec3<S> inverse_variance;
   Vec3<S> ratio;
 
-  LineLikelihood(const LineVote<S>& line, const Mat3<S>& manhattan_from_cam, S floor) noexcept
-      : normal(manhattan_from_cam * line.plane_normal) {
-    const Vec3<S> ray = manhattan_from_cam * line.ray;
+  LineLikelihood(const LineVote<S>& line, const Mat3<S>& cam_from_axes, S floor) noexcept
+      : normal(cam_from_axes.transpose() * line.plane_normal) {
+    const Vec3<S> ray = cam_from_axes.transpose() * line.ray;
     for (int k = 0; k < 3; ++k) {
       const CircleRatio<S> circle = circle_ratio(line.sigma, normal[k], ray[k], floor);
       inverse_variance[k] = circle.inverse_variance;
@@ -85,10 +85,9 @@ template <Scalar S>
 [[nodiscard]] LineRound<S> weigh_lines(std::span<const LineVote<S>> lines, const Mat3<S>& cam_from_axes,
                                        const LineShares<S>& shares, S floor) noexcept {
   LineRound<S> round;
-  const Mat3<S> axes_from_cam = cam_from_axes.transpose();
   const S clutter = shares.clutter();
   for (const LineVote<S>& line : lines) {
-    const detail::LineLikelihood<S> like(line, axes_from_cam, floor);
+    const detail::LineLikelihood<S> like(line, cam_from_axes, floor);
     std::array<S, 3> part;
     S total = clutter;
     for (std::size_t k = 0; k < 3; ++k) total += part[k] = shares.axis[k] * like.ratio[static_cast<int>(k)];
@@ -125,10 +124,9 @@ template <Scalar S>
 void assign_lines(std::span<const LineVote<S>> lines, const Mat3<S>& cam_from_axes,
                   const LineShares<S>& shares, S floor, const std::array<bool, 3>& usable_axes,
                   std::span<std::int8_t> axis_of) noexcept {
-  const Mat3<S> axes_from_cam = cam_from_axes.transpose();
   const std::size_t count = std::min(lines.size(), axis_of.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const detail::LineLikelihood<S> like(lines[i], axes_from_cam, floor);
+    const detail::LineLikelihood<S> like(lines[i], cam_from_axes, floor);
     S total = shares.clutter();
     for (std::size_t k = 0; k < 3; ++k) total += shares.axis[k] * like.ratio[static_cast<int>(k)];
     axis_of[i] = -1;

@@ -70,7 +70,8 @@ void assign_lines_of(const ManhattanEstimate<S>& estimate, std::span<const LineV
 //
 // kOk: every rotation is observed by votes. kDegenerate: only some are (one axis); the rest keeps the prior's
 // value and covariance. kTooFew: no votes. kNoConsensus: no axis stands out, or the votes would turn the
-// prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior. With the last three the
+// prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior, or a
+// covariance of the prior without an inverse. With the last three the
 // answer is the prior (the identity where that is not finite). Entry i of `axis_of`, if it is not empty,
 // becomes the axis (0, 1, 2) of segment i, or -1.
 template <Scalar S, Scalar V = S>
@@ -80,9 +81,12 @@ template <Scalar S, Scalar V = S>
                                                    const ManhattanOptions<S>& options = {},
                                                    std::span<std::int8_t> axis_of = {}) noexcept {
   for (std::int8_t& axis : axis_of) axis = -1;
-  const Mat3<S> information = prior.covariance.ldlt().solve(Mat3<S>::Identity().eval());
-  if (!information.allFinite() || !prior.cam_from_manhattan.matrix().allFinite())
+  if (!prior.covariance.allFinite() || !prior.cam_from_manhattan.matrix().allFinite())
     return detail::refusal<S>(Status::kNotFinite);
+  const Eigen::LLT<Mat3<S>> covariance(prior.covariance);
+  const Mat3<S> information = covariance.solve(Mat3<S>::Identity().eval());
+  if (covariance.info() != Eigen::Success || !information.allFinite())
+    return detail::refusal(Status::kNotFinite, prior);
   const detail::FrameVotes<S, V> votes(normals, lines);
   if (!votes.finite()) return detail::refusal(Status::kNotFinite, prior);
   if (votes.empty()) return detail::refusal(Status::kTooFew, prior);
