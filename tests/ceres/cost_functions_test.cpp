@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "ceres/numeric.hpp"
+#include "sslam/core/random.hpp"
 #include "support/catch.hpp"
-#include "support/map_scene.hpp"
 
 namespace {
 

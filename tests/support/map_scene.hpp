@@ -17,7 +17,7 @@ struct MapSceneOptions {
   int points = 600;
   int lines = 80;
   double pixel_noise = 0.7;
-  double farthest = 100;  // depth to which anything is seen, metres
+  double farthest = 100;                  // depth to which anything is seen, metres
   double rotation_noise = radians(0.15);  // of a keyframe's Manhattan observation, about each axis
   std::uint64_t seed = 1;
 };

@@ -36,12 +36,13 @@ class CeresBundleSolver {
   BundleSummary solve(BundleGraph<double>& graph) {
     ceres::Problem problem(problem_options());
     load(graph);
+    observations_ = 0;
     ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
     add_points(graph, problem);
     add_lines(graph, problem);
     add_views(graph, problem);
     ceres::Solver::Summary answer;
-    if (problem.NumResidualBlocks() > 0) ceres::Solve(solver_options(), &problem, &answer);
+    if (observations_ > 0) ceres::Solve(solver_options(), &problem, &answer);
     const BundleSummary summary = summarise(answer);
     if (improved(summary)) store(graph);
     release();
@@ -105,6 +106,7 @@ class CeresBundleSolver {
         if (!evaluable(point_costs_.back(), poses_[view].data(), block)) continue;
         problem.AddResidualBlock(&point_costs_.back(), point_loss_.get(), poses_[view].data(), block);
         used = true;
+        ++observations_;
       }
       if (used) ordering_->AddElementToGroup(block, 0);
     }
@@ -121,6 +123,7 @@ class CeresBundleSolver {
         if (!evaluable(line_costs_.back(), poses_[view].data(), block)) continue;
         problem.AddResidualBlock(&line_costs_.back(), line_loss_.get(), poses_[view].data(), block);
         used = true;
+        ++observations_;
       }
       if (!used) continue;
       problem.SetManifold(block, &line_manifold_);
@@ -210,6 +213,7 @@ class CeresBundleSolver {
   TurningPoseManifold turning_manifold_;
   LineManifold line_manifold_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+  int observations_ = 0;  // of points and lines, in the problem
 };
 
 }  // namespace sslam
