@@ -50,8 +50,6 @@ class KeyframeMapping {
     creation.create(map, id, median_depth);
     map.update_covisibility(id);
     optimiser.optimise(map, id);
-    if (!creation.options.use_points)
-      for (std::size_t i = 0; i < map.points.size(); ++i) map.erase_point(static_cast<LandmarkId>(i));
     read_back(map, id, frame);
   }
 

@@ -35,7 +35,8 @@ class Pipeline {
 
   int relocalisation_tries = 3;  // keyframes to compare a lost frame with
   int young_map = 5;             // keyframes: a map lost while it has fewer is given up and started anew
-  int give_up_after = 15;        // frames without a pose until that happens
+  int give_up_after = 15;        // lost frames with enough features until that happens
+  int telling_features = 50;     // points plus lines that make a frame speak for or against the map
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
   TrackResult<S> track(Frame<S>& frame) {
@@ -103,7 +104,7 @@ class Pipeline {
     result.cam_from_world = current_->cam_from_world;
     if (lost_frames_ > 0) {
       motion_.stop();
-      lost_frames_ = 0;
+      lost_frames_ = unfit_frames_ = 0;
       result.reason = Reason::kRelocalised;
     }
     consider_keyframe(result, estimate);
@@ -174,14 +175,18 @@ class Pipeline {
     result.reason = reason;
     current_->forget_matches();
     current_->cam_from_world = last_->cam_from_world;
-    if (++lost_frames_ < give_up_after || static_cast<int>(map_.keyframes.size()) >= young_map) return;
+    ++lost_frames_;
+    // A covered lens says nothing about the map; an image that shows enough and does not fit does.
+    if (static_cast<int>(current_->frame.points.size() + current_->frame.lines.size()) >= telling_features)
+      ++unfit_frames_;
+    if (unfit_frames_ < give_up_after || static_cast<int>(map_.keyframes.size()) >= young_map) return;
     map_ = Map<S>();
     log_.clear();
     rotation.reset();
     initialisation.reset();
     mapping.reset();
     motion_.stop();
-    lost_frames_ = 0;
+    lost_frames_ = unfit_frames_ = 0;
   }
 
   void consider_keyframe(TrackResult<S>& result, const PoseEstimate<S>& estimate) {
@@ -224,7 +229,8 @@ class Pipeline {
   Correspondences<S> scratch_;
   KeyframeId reference_ = kNone;
   int frames_since_keyframe_ = 0;
-  int lost_frames_ = 0;
+  int lost_frames_ = 0;   // in a row
+  int unfit_frames_ = 0;  // of them, those that showed enough to be recognised
   int next_candidate_ = 0;
 };
 
