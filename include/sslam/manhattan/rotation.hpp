@@ -70,10 +70,9 @@ void assign_lines_of(const ManhattanEstimate<S>& estimate, std::span<const LineV
 //
 // kOk: every rotation is observed by votes. kDegenerate: only some are (one axis); the rest keeps the prior's
 // value and covariance. kTooFew: no votes. kNoConsensus: no axis stands out, or the votes would turn the
-// prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior, or a
-// covariance of the prior without an inverse. With the last three the
-// answer is the prior (the identity where that is not finite). Entry i of `axis_of`, if it is not empty,
-// becomes the axis (0, 1, 2) of segment i, or -1.
+// prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior, or a prior whose covariance
+// has no inverse. With the last three the answer is the prior (the identity where that is not finite). Entry
+// i of `axis_of`, if it is not empty, becomes the axis (0, 1, 2) of segment i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> track_manhattan(const NormalView<V>& normals,
                                                    std::span<const LineVote<S>> lines,
