@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/ceres/bundle_solver.hpp"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -76,7 +77,9 @@ TEST_CASE("Local and global adjustment with Ceres bring a perturbed map back") {
   REQUIRE(after.rotation < 0.4 * before.rotation);
 }
 
-TEST_CASE("Ceres gives the same bits again") {
+// Ceres orders its blocks by their addresses, so the last digits depend on where they lie: for the same bits there is
+// the core's own solver.
+TEST_CASE("Ceres gives the same answer again but for rounding") {
   MapScene scene({.points = 600, .lines = 150}, sweep(12, 0.25));
   const Map<double> map = make_map(scene, false, true);
   const int threads = GENERATE(1, 2);
@@ -88,7 +91,9 @@ TEST_CASE("Ceres gives the same bits again") {
   LocalBundleAdjustment fresh;
   fresh.solver.options.num_threads = threads;
   fresh.optimise(second, 11);
-  REQUIRE(same_bits(state_of(first), state_of(second)));
+  const std::vector<double> a = state_of(first), b = state_of(second);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) REQUIRE(std::abs(a[i] - b[i]) < 1e-6 * (1 + std::abs(a[i])));
 }
 
 TEST_CASE("What Ceres cannot solve leaves the map as it was") {
