@@ -77,8 +77,8 @@ TEST_CASE("Local and global adjustment with Ceres bring a perturbed map back") {
   REQUIRE(after.rotation < 0.4 * before.rotation);
 }
 
-// Ceres orders its blocks by their addresses, so the last digits depend on where they lie: for the same bits there is
-// the core's own solver.
+// Ceres orders its blocks by their addresses, so the last digits depend on where they lie: for the same bits
+// there is the core's own solver.
 TEST_CASE("Ceres gives the same answer again but for rounding") {
   MapScene scene({.points = 600, .lines = 150}, sweep(12, 0.25));
   const Map<double> map = make_map(scene, false, true);

@@ -17,18 +17,28 @@ enum class Status : std::uint8_t {
   kNotFinite,     // an input was NaN or infinite
 };
 
-[[nodiscard]] constexpr bool usable(Status status) noexcept { return status == Status::kOk; }
+[[nodiscard]] constexpr bool usable(Status status) noexcept {
+  return status == Status::kOk;
+}
 
 [[nodiscard]] constexpr const char* name(Status status) noexcept {
   switch (status) {
-    case Status::kOk: return "ok";
-    case Status::kTooFew: return "too few observations";
-    case Status::kDegenerate: return "degenerate";
-    case Status::kLowParallax: return "low parallax";
-    case Status::kBehind: return "behind the camera";
-    case Status::kNoConsensus: return "no consensus";
-    case Status::kNotConverged: return "not converged";
-    case Status::kNotFinite: return "not finite";
+    case Status::kOk:
+      return "ok";
+    case Status::kTooFew:
+      return "too few observations";
+    case Status::kDegenerate:
+      return "degenerate";
+    case Status::kLowParallax:
+      return "low parallax";
+    case Status::kBehind:
+      return "behind the camera";
+    case Status::kNoConsensus:
+      return "no consensus";
+    case Status::kNotConverged:
+      return "not converged";
+    case Status::kNotFinite:
+      return "not finite";
   }
   return "unknown";
 }

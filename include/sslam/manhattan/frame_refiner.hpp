@@ -50,6 +50,19 @@ template <Scalar S>
   return system;
 }
 
+// Inverse of a symmetric positive matrix; false, and no change, where it has none. Column by column, since
+// with a matrix on the right Eigen takes the path for large ones, which knows malloc.
+template <Scalar S>
+[[nodiscard]] bool invert(const Mat3<S>& m, Mat3<S>& inverse) noexcept {
+  const Eigen::LLT<Mat3<S>> llt(m);
+  if (llt.info() != Eigen::Success) return false;
+  Mat3<S> columns;
+  for (int c = 0; c < 3; ++c) columns.col(c) = llt.solve(Vec3<S>(Vec3<S>::Unit(c)));
+  if (!columns.allFinite()) return false;
+  inverse = columns;
+  return true;
+}
+
 // Smallest eigenvalue of a symmetric 2 x 2 matrix.
 template <Scalar S>
 [[nodiscard]] S weakest(const Mat2<S>& m) noexcept {
@@ -125,7 +138,9 @@ class FrameRefiner {
     ManhattanEstimate<S> estimate;
     estimate.cam_from_manhattan = rotation_;
     const Mat3<S> axes = rotation_.matrix();
-    estimate.covariance = axes * posterior_.ldlt().solve(Mat3<S>::Identity().eval()) * axes.transpose();
+    Mat3<S> covariance = Mat3<S>::Zero();
+    const bool certain = invert(posterior_, covariance);
+    estimate.covariance = axes * covariance * axes.transpose();
     S squared = 0;
     S count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -150,7 +165,7 @@ class FrameRefiner {
     const S least = std::max(solver.eigenvalues()[0], S(0));
     estimate.deviation = S(1) / std::sqrt(std::max(least, S(0.1)));
     estimate.log_likelihood = round_.log_likelihood;
-    estimate.status = estimate.axes_seen == 0                                          ? Status::kNoConsensus
+    estimate.status = !certain || estimate.axes_seen == 0                              ? Status::kNoConsensus
                       : least * options_.max_deviation * options_.max_deviation < S(1) ? Status::kDegenerate
                                                                                        : Status::kOk;
     return estimate;

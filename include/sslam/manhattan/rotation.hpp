@@ -3,7 +3,6 @@
 // degrees.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -82,10 +81,8 @@ template <Scalar S, Scalar V = S>
   for (std::int8_t& axis : axis_of) axis = -1;
   if (!prior.covariance.allFinite() || !prior.cam_from_manhattan.matrix().allFinite())
     return detail::refusal<S>(Status::kNotFinite);
-  const Eigen::LLT<Mat3<S>> covariance(prior.covariance);
-  const Mat3<S> information = covariance.solve(Mat3<S>::Identity().eval());
-  if (covariance.info() != Eigen::Success || !information.allFinite())
-    return detail::refusal(Status::kNotFinite, prior);
+  Mat3<S> information;
+  if (!detail::invert(prior.covariance, information)) return detail::refusal(Status::kNotFinite, prior);
   const detail::FrameVotes<S, V> votes(normals, lines);
   if (!votes.finite()) return detail::refusal(Status::kNotFinite, prior);
   if (votes.empty()) return detail::refusal(Status::kTooFew, prior);
