@@ -22,7 +22,7 @@ template <Scalar S>
 class DecoupledInitialisation {
  public:
   S search_radius = 30;            // pixels around where a feature was last seen, turned with the camera
-  int min_matches = 25;            // with the reference frame: fewer make the newest frame the reference
+  int min_matches = 18;            // with the reference frame: fewer make the newest frame the reference
   int min_points = 20;             // landmarks that a first map must have
   S min_parallax = radians(S(1));  // of a landmark that counts
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
