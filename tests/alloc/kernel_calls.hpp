@@ -56,11 +56,7 @@ class KernelCalls {
     visit("triangulate_point", [this] {
       return usable(triangulate_point<S>(std::span<const PointView<S>>(room_.point_views)).status);
     });
-    visit("triangulate_line", [this] {
-      // Low parallax is an answer too: it comes after all of the work.
-      const Status status = triangulate_line<S>(room_.line_views).status;
-      return usable(status) || status == Status::kLowParallax;
-    });
+    visit("triangulate_line", [this] { return usable(triangulate_line<S>(room_.line_views).status); });
     visit("refine_pose", [this] { return refine(near_pose(), nullptr); });
     visit("refine_translation", [this] {
       SE3<S> pose = near_pose();

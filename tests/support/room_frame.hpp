@@ -179,8 +179,8 @@ class RoomFrame {
 
   void add_views() {
     const Vec3<double> point = wall_at(pose(1), {340, 250}).point;
-    Vec3<double> a, b;
-    random_edge(a, b);
+    // Upright: the path runs across it.
+    const Vec3<double> a = wall_at(pose(1), {280, 250}).point, b = a + Vec3<double>(0, 0.8, 0);
     for (int k = 0; k < options_.views; ++k) {
       const Vec3<double> ray = lens().unproject(seen(pose(k), point) + noise());
       point_views.push_back({pose(k).template cast<S>(), ray.template head<2>().template cast<S>(),
