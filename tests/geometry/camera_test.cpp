@@ -42,7 +42,7 @@ TEST_CASE("pinhole Jacobian entry by entry") {
   Random random(1);
   int killed = 0;
   for (int i = 0; i < 50; ++i) {
-    const Vec3<double> x(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.5, 4.0));
+    const Vec3<double> x{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.5, 4.0)};
     const auto numeric =
         numeric_jacobian([&](const Euclidean<double, 3>& p) -> Vec2<double> { return k.project(p.value); },
                          Euclidean<double, 3>{x});
@@ -82,7 +82,7 @@ TEST_CASE("distortion Jacobian entry by entry") {
   Random random(2);
   for (const RadTan<double>& lens : lenses<double>()) {
     for (int i = 0; i < 20; ++i) {
-      const Vec2<double> m(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
+      const Vec2<double> m{random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5)};
       const auto numeric = numeric_jacobian(
           [&](const Euclidean<double, 2>& p) -> Vec2<double> { return lens.distort(p.value); },
           Euclidean<double, 2>{m});

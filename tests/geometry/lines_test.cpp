@@ -123,8 +123,8 @@ TEMPLATE_TEST_CASE("the update of a line keeps it a line", "", float, double) {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
     const auto line = Line3<S>::from_points(random_point<S>(random), random_point<S>(random));
-    const Vec4<S> delta = S(0.1) * Vec4<S>(random.uniform(S(-1), S(1)), random.uniform(S(-1), S(1)),
-                                           random.uniform(S(-1), S(1)), random.uniform(S(-1), S(1)));
+    const Vec4<S> delta = S(0.1) * Vec4<S>{random.uniform(S(-1), S(1)), random.uniform(S(-1), S(1)),
+                                           random.uniform(S(-1), S(1)), random.uniform(S(-1), S(1))};
     const auto moved = line.retract(delta);
     CHECK(std::abs(moved.direction.norm() - 1) < tolerance<S>());
     CHECK(std::abs(moved.moment.dot(moved.direction)) < tolerance<S>() * (1 + moved.moment.norm()));

@@ -36,8 +36,8 @@ io::Trajectory winding(int count) {
 io::Trajectory noisy(io::Trajectory path, std::uint64_t seed) {
   Random random(seed);
   const auto draw = [&random](double size) {
-    return Vec3<double>(random.uniform(-size, size), random.uniform(-size, size),
-                        random.uniform(-size, size));
+    return Vec3<double>{random.uniform(-size, size), random.uniform(-size, size),
+                        random.uniform(-size, size)};
   };
   for (io::StampedPose& pose : path) {
     pose.world_from_cam.translation += draw(0.05);

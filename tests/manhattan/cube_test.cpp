@@ -36,7 +36,7 @@ TEMPLATE_TEST_CASE("every renamed frame gets its old names back", "[cube]", floa
   Random random(11);
   for (const Mat3<double>& q : cube_rotations()) {
     const SO3<double> frame = test::any_rotation(random);
-    const SO3<double> off = SO3<double>::exp(0.7 * test::gaussian3(random).normalized());
+    const SO3<double> off = SO3<double>::exp(0.7 * test::gaussian_vector<3>(random).normalized());
     const SO3<S> renamed = SO3<S>::from_matrix((off * frame).matrix().cast<S>() * q.cast<S>());
     const SO3<S> named = closest_naming(renamed, frame.cast<S>());
     CHECK(angle_between(named, (off * frame).cast<S>()) < S(1e-3));

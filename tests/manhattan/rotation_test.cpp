@@ -17,7 +17,7 @@ namespace {
 
 template <Scalar S>
 ManhattanPrior<S> prior_off_by(const SO3<double>& truth, Random& random, double off_deg) {
-  const Vec3<double> off = radians(off_deg) * test::gaussian3(random).normalized();
+  const Vec3<double> off = radians(off_deg) * test::gaussian_vector<3>(random).normalized();
   return {(SO3<double>::exp(off) * truth).cast<S>()};
 }
 
@@ -27,7 +27,7 @@ ManhattanEstimate<S> track(const VoteScene<S>& scene, const ManhattanPrior<S>& p
   return track_manhattan<S>(scene.normals(), scene.lines(), prior, options);
 }
 
-// (phi^T C^-1 phi): the mean is 3 when the covariance is right.
+// phi^T C^-1 phi: chi-squared with 3 degrees of freedom when the covariance is right.
 template <Scalar S>
 double normalised_error(const ManhattanEstimate<S>& estimate, const SO3<double>& truth) {
   const Vec3<double> phi = (estimate.cam_from_manhattan.template cast<double>() * truth.inverse()).log();
@@ -69,7 +69,7 @@ TEMPLATE_TEST_CASE("thousands of biased normals give way to segments", "[rotatio
   Random random(2);
   VoteScene<S> scene(2, test::any_rotation(random));
   for (int axis = 0; axis < 3; ++axis) {
-    scene.add_plane(axis, 10000, 4, radians(3.0) * test::gaussian3(random).normalized());
+    scene.add_plane(axis, 10000, 4, radians(3.0) * test::gaussian_vector<3>(random).normalized());
     scene.add_lines(axis, 15, 0.005);
   }
   const auto prior = prior_off_by<S>(scene.truth, random, 4);
@@ -91,26 +91,31 @@ TEMPLATE_TEST_CASE("the covariance holds for segments and for planes with a bias
   options.normal_floor = 0;
   const double shared = std::sqrt(static_cast<double>(options.normal_correlation)) * radians(kScatterDeg);
   Random random(3);
-  double sum = 0;
+  std::vector<double> errors;
   for (int trial = 0; trial < kTrials; ++trial) {
     VoteScene<S> scene(static_cast<std::uint64_t>(trial), test::any_rotation(random));
     for (int axis = 0; axis < 3; ++axis) {
       if (kind != 1) scene.add_lines(axis, 12, 0.01);
-      if (kind != 0) scene.add_plane(axis, 1500, kScatterDeg, shared * test::gaussian3(random));
+      if (kind != 0) scene.add_plane(axis, 1500, kScatterDeg, shared * test::gaussian_vector<3>(random));
     }
     if (kind != 1) scene.add_clutter_lines(20, 0.01);
     // A prior that errs as much as it says.
     ManhattanPrior<S> prior;
     prior.covariance = Mat3<S>::Identity() * (radians(S(3)) * radians(S(3)));
     prior.cam_from_manhattan =
-        (SO3<double>::exp(radians(3.0) * test::gaussian3(random)) * scene.truth).template cast<S>();
+        (SO3<double>::exp(radians(3.0) * test::gaussian_vector<3>(random)) * scene.truth).template cast<S>();
     const auto estimate = track(scene, prior, options);
     REQUIRE(estimate.status == Status::kOk);
-    sum += normalised_error(estimate, scene.truth);
+    errors.push_back(normalised_error(estimate, scene.truth));
   }
   INFO("kind " << kind);
-  CHECK(sum / kTrials > 2);
-  CHECK(sum / kTrials < 4.5);
+  std::sort(errors.begin(), errors.end());
+  const double median = errors[kTrials / 2];
+  CHECK(median > 1.6);
+  CHECK(median < 3.4);  // of chi-squared: 2.37
+  // Beyond the 99.9 % quantile are the few trials in which clutter took an edge's place.
+  const auto beyond = errors.end() - std::upper_bound(errors.begin(), errors.end(), 16.27);
+  CHECK(beyond <= kTrials / 20);
 }
 
 TEMPLATE_TEST_CASE("one axis leaves the turn about it to the prior", "[rotation]", float, double) {
@@ -178,7 +183,7 @@ TEMPLATE_TEST_CASE("a camera that turns right round keeps the names of its axes"
   Random random(7);
   const SO3<double> start = test::any_rotation(random);
   ManhattanPrior<S> prior{start.cast<S>()};
-  const Vec3<double> axis = test::gaussian3(random).normalized();
+  const Vec3<double> axis = test::gaussian_vector<3>(random).normalized();
   for (int step = 1; step <= 90; ++step) {
     VoteScene<S> scene(static_cast<std::uint64_t>(step),
                        SO3<double>::exp(radians(4.0 * step) * axis) * start);

@@ -106,7 +106,7 @@ TEST_CASE("a column is no frame since all its turns are as good", "[search]") {
     for (int i = 0; i < 3000; ++i) {
       const double turn = 2 * std::numbers::pi * i / 3000;
       scene.add_normal(std::cos(turn) * axes.col(0) + std::sin(turn) * axes.col(1) +
-                       0.02 * test::gaussian3(scene.random));
+                       0.02 * test::gaussian_vector<3>(scene.random));
     }
     scene.add_lines(2, 20, 0.005);
   });
@@ -118,8 +118,8 @@ TEST_CASE("planes at 60 degrees and no two square are no frame", "[search]") {
     const Mat3<double> axes = scene.truth.matrix();
     const Vec3<double> second = 0.5 * axes.col(0) + std::sqrt(0.75) * axes.col(1);
     for (int i = 0; i < 1500; ++i) {
-      scene.add_normal(axes.col(0) + 0.03 * test::gaussian3(scene.random));
-      scene.add_normal(second + 0.03 * test::gaussian3(scene.random));
+      scene.add_normal(axes.col(0) + 0.03 * test::gaussian_vector<3>(scene.random));
+      scene.add_normal(second + 0.03 * test::gaussian_vector<3>(scene.random));
     }
   });
   CHECK(score.accepted == 0);

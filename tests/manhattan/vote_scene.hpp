@@ -10,23 +10,16 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/manhattan/votes.hpp"
+#include "support/random_draws.hpp"
 
 namespace sslam::test {
 
-// Standard normal, by Box and Muller.
-inline double gaussian(Random& random) {
-  const double u = 1 - random.uniform(0.0, 1.0);
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * random.uniform(0.0, 1.0));
-}
-
-inline Vec3<double> gaussian3(Random& random) {
-  const double x = gaussian(random), y = gaussian(random);
-  return {x, y, gaussian(random)};
-}
+using testing::gaussian;
+using testing::gaussian_vector;
 
 inline SO3<double> any_rotation(Random& random) {
-  const Vec3<double> v = gaussian3(random);
-  return SO3<double>::from_quaternion(gaussian(random), v.x(), v.y(), v.z());
+  const Vec4<double> q = gaussian_vector<4>(random);
+  return SO3<double>::from_quaternion(q[0], q[1], q[2], q[3]);
 }
 
 template <Scalar S>
@@ -50,11 +43,11 @@ struct VoteScene {
   void add_plane(int axis, int count, double scatter_deg, const Vec3<double>& bias = Vec3<double>::Zero()) {
     const Vec3<double> a = (SO3<double>::exp(bias) * truth).matrix().col(axis);
     for (int i = 0; i < count; ++i)
-      add_normal((i % 2 == 0 ? 1.0 : -1.0) * (a + radians(scatter_deg) * gaussian3(random)));
+      add_normal((i % 2 == 0 ? 1.0 : -1.0) * (a + radians(scatter_deg) * gaussian_vector<3>(random)));
   }
 
   void add_clutter_normals(int count) {
-    for (int i = 0; i < count; ++i) add_normal(gaussian3(random));
+    for (int i = 0; i < count; ++i) add_normal(gaussian_vector<3>(random));
   }
 
   Vec3<double> any_ray() {

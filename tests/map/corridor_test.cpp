@@ -12,13 +12,14 @@ using namespace sslam::testing;
 
 struct Walk {
   MapErrors errors;
-  double last_rotation = 0, last_centre = 0;  // of the last keyframe, degrees and metres
+  double last_rotation = 0;  // of the last keyframe, degrees
 };
 
 // Every keyframe starts from the one before it with some error, and landmarks from the keyframe that first
 // sees them.
-Walk walk(bool manhattan) {
+Walk walk(bool manhattan, std::uint64_t seed) {
   MapSceneOptions options;
+  options.seed = seed;
   options.half = {1.2, 1.3, 16};
   options.points = 700;
   options.lines = 250;
@@ -37,14 +38,14 @@ Walk walk(bool manhattan) {
     SE3<double> believed = path[k];
     if (k > 0) {
       Vec6<double> xi;
-      xi << scene.gauss3() * radians(0.1), scene.gauss3() * 0.005;
+      xi << gaussian_vector<3>(scene.random()) * radians(0.1), gaussian_vector<3>(scene.random()) * 0.005;
       believed = SE3<double>::exp(xi) * path[k] * path[k - 1].inverse() * map.keyframes[k - 1].cam_from_world;
     }
     const Keyframe<double> kf = scene.make_keyframe(k, believed);
     const SE3<double> world_from_truth = believed.inverse() * path[k];
     for (const LandmarkId id : kf.point_landmarks)
       if (const auto i = map.index(id); !known_points[i]) {
-        const Vec3<double> in_camera = path[k] * scene.points[i] * (1 + 0.03 * scene.gauss());
+        const Vec3<double> in_camera = path[k] * scene.points[i] * (1 + 0.03 * gaussian(scene.random()));
         map.points[i].position = believed.inverse() * in_camera;
         known_points[i] = true;
       }
@@ -62,19 +63,23 @@ Walk walk(bool manhattan) {
   out.errors = measure(scene, map);
   const SE3<double>& last = map.keyframes.back().cam_from_world;
   out.last_rotation = degrees(angle_between(last.rotation, path.back().rotation));
-  out.last_centre = (last.inverse().translation - path.back().inverse().translation).norm();
   return out;
 }
 
 }  // namespace
 
 TEST_CASE("Structural terms take the drift out of the rotation") {
-  const Walk without = walk(false), with = walk(true);
-  INFO("rotation " << without.errors.rotation << " and with structure " << with.errors.rotation
-                   << " deg, last " << without.last_rotation << " and " << with.last_rotation);
-  INFO("centre " << without.errors.centre << " and with structure " << with.errors.centre << " m, last "
-                 << without.last_centre << " and " << with.last_centre);
-  CHECK(with.errors.rotation < 0.2);
-  CHECK(with.errors.rotation < 0.5 * without.errors.rotation);
-  CHECK(with.last_rotation < 0.3);
+  double drift[2] = {0, 0};  // without and with structure: the mean over the walks, degrees
+  constexpr int kWalks = 4;
+  for (std::uint64_t seed = 1; seed <= kWalks; ++seed) {
+    const Walk without = walk(false, seed), with = walk(true, seed);
+    INFO("seed " << seed << ": rotation " << without.errors.rotation << " and with structure "
+                 << with.errors.rotation << " deg, last " << without.last_rotation << " and "
+                 << with.last_rotation);
+    CHECK(with.errors.rotation < 0.25);
+    CHECK(with.last_rotation < 0.4);
+    drift[0] += without.last_rotation / kWalks;
+    drift[1] += with.last_rotation / kWalks;
+  }
+  CHECK(drift[1] < 0.5 * drift[0]);
 }

@@ -16,12 +16,12 @@ struct ResidualScene {
 
   explicit ResidualScene(Random& random) {
     const auto within = [&](double size) {
-      return Vec3<double>(random.uniform(-size, size), random.uniform(-size, size),
-                          random.uniform(-size, size));
+      return Vec3<double>{random.uniform(-size, size), random.uniform(-size, size),
+                          random.uniform(-size, size)};
     };
     cam_from_world = {SO3<double>::exp(within(1.5)), within(2)};
     const auto in_view = [&] {
-      return Vec3<double>(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(1.5, 4.0));
+      return Vec3<double>{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(1.5, 4.0)};
     };
     Vec3<double> a = in_view(), b = in_view();
     while ((a / a.z() - b / b.z()).norm() < 0.3) b = in_view();

@@ -8,17 +8,12 @@
 #include "sslam/core/random.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/random_draws.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
 
 namespace {
-
-double gauss(Random& random) {
-  double sum = -6;
-  for (int i = 0; i < 12; ++i) sum += random.uniform(0.0, 1.0);
-  return sum;
-}
 
 // A camera somewhere in a cloud of points and lines, 1 to 6 m ahead, seen with noise of 1 pixel; a share of
 // the matches is anywhere in the image.
@@ -37,13 +32,12 @@ struct PoseScene {
     Vec6<double> xi;
     for (int i = 0; i < 6; ++i) xi[i] = random.uniform(-1.0, 1.0);
     const auto cam_from_world = SE3<double>::exp(xi);
-    const auto pixel = [&] { return Vec2<double>(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)); };
+    const auto pixel = [&] { return Vec2<double>{random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)}; };
     const auto world = [&](const Vec2<double>& p) -> Vec3<double> {
       return cam_from_world.inverse() * Vec3<double>(k.unproject(p) * random.uniform(1.0, 6.0));
     };
     const auto seen = [&](const Vec2<double>& p, bool good) -> Vec2<S> {
-      return (good ? Vec2<double>(p + noise * Vec2<double>(gauss(random), gauss(random))) : pixel())
-          .template cast<S>();
+      return (good ? Vec2<double>(p + noise * gaussian_vector<2>(random)) : pixel()).template cast<S>();
     };
     truth = cam_from_world.template cast<S>();
     for (int i = 0; i < point_count; ++i) {

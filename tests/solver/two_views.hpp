@@ -8,16 +8,15 @@
 #include "sslam/core/random.hpp"
 #include "sslam/geometry/so3.hpp"
 #include "sslam/solver/epipolar.hpp"
+#include "support/random_draws.hpp"
 
 namespace sslam {
 
-inline double gaussian(Random& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.uniform(0.0, 1.0)));
-  return radius * std::cos(random.uniform(0.0, 6.283185307179586));
-}
+using testing::gaussian;
+using testing::gaussian_vector;
 
 inline Vec3<double> random_direction(Random& random) {
-  return Vec3<double>(gaussian(random), gaussian(random), gaussian(random)).normalized();
+  return gaussian_vector<3>(random).normalized();
 }
 
 struct TwoViewOptions {

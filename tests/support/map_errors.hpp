@@ -16,13 +16,13 @@ template <Scalar S>
 void perturb(MapScene& scene, Map<S>& map, std::size_t first, double rotation, double distance) {
   for (std::size_t k = first; k < map.keyframes.size(); ++k) {
     Vec6<double> xi;
-    xi << scene.gauss3() * rotation, scene.gauss3() * distance;
+    xi << gaussian_vector<3>(scene.random()) * rotation, gaussian_vector<3>(scene.random()) * distance;
     map.keyframes[k].cam_from_world = map.keyframes[k].cam_from_world.retract(xi.cast<S>());
   }
-  for (auto& p : map.points) p.position += (scene.gauss3() * distance).cast<S>();
+  for (auto& p : map.points) p.position += (gaussian_vector<3>(scene.random()) * distance).cast<S>();
   for (auto& l : map.lines) {
-    l.start += (scene.gauss3() * distance).cast<S>();
-    l.end += (scene.gauss3() * distance).cast<S>();
+    l.start += (gaussian_vector<3>(scene.random()) * distance).cast<S>();
+    l.end += (gaussian_vector<3>(scene.random()) * distance).cast<S>();
     l.line = Line3<S>::from_points(l.start, l.end);
   }
 }

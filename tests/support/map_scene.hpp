@@ -9,6 +9,7 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/map/map.hpp"
+#include "support/random_draws.hpp"
 
 namespace sslam::testing {
 
@@ -73,26 +74,17 @@ class MapScene {
     for (std::size_t i = 0; i < points.size(); ++i) see_point(kf, poses[k], i);
     for (std::size_t i = 0; i < lines.size(); ++i) see_line(kf, poses[k], i);
     kf.manhattan = RotationObservation<double>{
-        SO3<double>::exp(gauss3() * options_.rotation_noise) * poses[k].rotation,
+        SO3<double>::exp(gaussian_vector<3>(random_) * options_.rotation_noise) * poses[k].rotation,
         Mat3<double>::Identity() * options_.rotation_noise * options_.rotation_noise};
     return kf;
   }
 
-  [[nodiscard]] double gauss() {
-    const double u = random_.uniform(1e-12, 1.0), v = random_.uniform(0.0, 6.283185307179586);
-    return std::sqrt(-2 * std::log(u)) * std::cos(v);
-  }
-  [[nodiscard]] Vec3<double> gauss3() {
-    const double x = gauss(), y = gauss(), z = gauss();
-    return {x, y, z};
-  }
   [[nodiscard]] Random& random() { return random_; }
 
  private:
   [[nodiscard]] Vec3<double> on_wall() {
     const auto& h = options_.half;
-    Vec3<double> p(random_.uniform(-h.x(), h.x()), random_.uniform(-h.y(), h.y()),
-                   random_.uniform(-h.z(), h.z()));
+    Vec3<double> p = uniform_vector<double, 3>(random_, -1.0, 1.0).cwiseProduct(h);
     const int wall = static_cast<int>(random_.below(6));
     p[wall % 3] = wall < 3 ? h[wall % 3] : -h[wall % 3];
     return p;
@@ -123,7 +115,7 @@ class MapScene {
     PointFeature<double> f;
     f.sigma = options_.pixel_noise;
     f.pixel = kf.frame.pinhole.project(in_camera);
-    f.pixel += Vec2<double>(gauss(), gauss()) * options_.pixel_noise;
+    f.pixel += gaussian_vector<2>(random_) * options_.pixel_noise;
     kf.frame.points.push_back(f);
     kf.point_landmarks.push_back(static_cast<LandmarkId>(i));
   }
@@ -139,8 +131,10 @@ class MapScene {
     const double slide = std::min(5.0, 0.1 * length);
     LineFeature<double> f;
     f.sigma = options_.pixel_noise;
-    f.segment.start = p + along * slide * random_.uniform(0.0, 1.0) + across * gauss() * options_.pixel_noise;
-    f.segment.end = q - along * slide * random_.uniform(0.0, 1.0) + across * gauss() * options_.pixel_noise;
+    const Vec2<double> slides = slide * uniform_vector<double, 2>(random_, 0.0, 1.0);
+    const Vec2<double> noise = options_.pixel_noise * gaussian_vector<2>(random_);
+    f.segment.start = p + slides[0] * along + noise[0] * across;
+    f.segment.end = q - slides[1] * along + noise[1] * across;
     kf.frame.lines.push_back(f);
     kf.line_landmarks.push_back(static_cast<LandmarkId>(i));
     kf.line_axes.push_back(lines[i].axis);

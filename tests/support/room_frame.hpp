@@ -14,6 +14,7 @@
 #include "sslam/solver/pose_refinement.hpp"
 #include "sslam/solver/triangulate_line.hpp"
 #include "sslam/solver/triangulate_point.hpp"
+#include "support/random_draws.hpp"
 
 namespace sslam::testing {
 
@@ -71,14 +72,7 @@ class RoomFrame {
     return SE3<double>{world_from_cam, Vec3<double>(-1.0 + 0.2 * k, 0.1 + 0.03 * k, -1.5)}.inverse();
   }
 
-  [[nodiscard]] double gauss() {
-    const double u = random_.uniform(1e-12, 1.0), v = random_.uniform(0.0, 2 * std::numbers::pi);
-    return std::sqrt(-2 * std::log(u)) * std::cos(v);
-  }
-  [[nodiscard]] Vec2<double> noise() {
-    const double x = gauss(), y = gauss();
-    return Vec2<double>(x, y) * options_.pixel_noise;
-  }
+  [[nodiscard]] Vec2<double> noise() { return gaussian_vector<2>(random_) * options_.pixel_noise; }
   [[nodiscard]] bool chance(double share) { return random_.uniform(0.0, 1.0) < share; }
   [[nodiscard]] Vec2<double> random_pixel() {
     const double u = random_.uniform(0.0, double{kWidth}), v = random_.uniform(0.0, double{kHeight});
@@ -116,7 +110,7 @@ class RoomFrame {
                                  (row + 0.5) * kHeight / options_.normal_rows);
         const OnWall hit = wall_at(pose(1), pixel);
         Vec3<double> n = -hit.side * R.col(hit.axis);
-        for (int i = 0; i < 3; ++i) n[i] += options_.normal_noise * gauss();
+        n += options_.normal_noise * gaussian_vector<3>(random_);
         n.normalize();
         x_.push_back(static_cast<S>(n.x()));
         y_.push_back(static_cast<S>(n.y()));
@@ -135,8 +129,7 @@ class RoomFrame {
   }
   [[nodiscard]] Segment2<double> image_of(const SE3<double>& view, const Vec3<double>& a,
                                           const Vec3<double>& b) {
-    const Vec2<double> start = seen(view, a) + noise(), end = seen(view, b) + noise();
-    return {start, end};
+    return {seen(view, a) + noise(), seen(view, b) + noise()};
   }
   [[nodiscard]] static Segment2<S> cast(const Segment2<double>& s) {
     return {s.start.template cast<S>(), s.end.template cast<S>()};

@@ -67,6 +67,16 @@ template <Scalar S, int D>
   return true;
 }
 
+// H^-1 of a positive definite H; otherwise false. Eigen's solve for a right side of several columns calls its
+// blocked routines, which bring the heap, a guarded static and 15 kB of code even for 3 x 3.
+template <Scalar S, int D>
+[[nodiscard]] bool inverse_of(const Mat<S, D, D>& H, Mat<S, D, D>& out) noexcept {
+  Mat<S, D, D> root;
+  if (!inverse_root<S, D>(H, root)) return false;
+  out = root.transpose() * root;
+  return true;
+}
+
 // W L^T for a lower triangular L.
 template <Scalar S, int M, int D>
 [[nodiscard]] Mat<S, M, D> times_transposed_lower(const Mat<S, M, D>& W, const Mat<S, D, D>& L) noexcept {

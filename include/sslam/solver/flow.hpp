@@ -3,11 +3,11 @@
 // across it is noise; so it is linear in the direction of translation.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/epipolar.hpp"
 
 namespace sslam {
@@ -103,16 +103,12 @@ struct FlowSystem {
     Mat3<S> n = noise;
     n(1, 1) = n(0, 0);
     n.diagonal().array() += S(1e-5) * n.trace();
-    const Eigen::LLT<Mat3<S>> whitening(n);
-    if (whitening.info() != Eigen::Success) return false;
-    Mat3<S> m = measured.template selfadjointView<Eigen::Lower>();
-    whitening.matrixL().solveInPlace(m);
-    m.transposeInPlace();
-    whitening.matrixL().solveInPlace(m);
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(m);
+    Mat3<S> whitening;  // L^-1 of n = L L^T
+    if (!inverse_root<S, 3>(n, whitening)) return false;
+    const Mat3<S> m = measured.template selfadjointView<Eigen::Lower>();
+    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(whitening * m * whitening.transpose());
     if (eigen.info() != Eigen::Success) return false;
-    Mat3<S> directions = eigen.eigenvectors();
-    whitening.matrixU().solveInPlace(directions);
+    const Mat3<S> directions = whitening.transpose() * eigen.eigenvectors();
     solution = {directions.col(0).normalized(), directions.col(1).normalized(), eigen.eigenvalues()};
     return solution.best.allFinite() && solution.rival.allFinite();
   }

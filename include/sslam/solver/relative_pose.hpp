@@ -10,6 +10,7 @@
 #include <span>
 
 #include "sslam/core/status.hpp"
+#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/epipolar_problem.hpp"
 
 namespace sslam {
@@ -67,9 +68,8 @@ template <Scalar S>
   information.template bottomRightCorner<2, 2>() -= (1 + chance) * sum.noise;
   if (Eigen::LLT<Mat<S, 5, 5>>(information).info() != Eigen::Success) return Status::kDegenerate;
   information.template bottomRightCorner<2, 2>() += chance * sum.noise;
-  const Eigen::LLT<Mat<S, 5, 5>> factor(information);
-  if (factor.info() != Eigen::Success) return Status::kDegenerate;
-  const Mat<S, 5, 5> covariance = factor.solve(Mat<S, 5, 5>::Identity());
+  Mat<S, 5, 5> covariance;
+  if (!inverse_of<S, 5>(information, covariance)) return Status::kDegenerate;
   const Mat<S, 3, 2> basis = tangent_basis(pose.t_10);
   summary.rotation_covariance = covariance.template topLeftCorner<3, 3>();
   summary.translation_covariance = basis * covariance.template bottomRightCorner<2, 2>() * basis.transpose();

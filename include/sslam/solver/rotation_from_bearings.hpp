@@ -3,7 +3,6 @@
 // many matches it explains tells a pure rotation from a translation.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "sslam/core/status.hpp"
 #include "sslam/solver/bearing_pair.hpp"
+#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/stratified_sample.hpp"
 
 namespace sslam {
@@ -148,9 +148,7 @@ template <Scalar S>
   if (sum.count < options.min_inliers ||
       static_cast<S>(sum.count) < options.min_inlier_share * static_cast<S>(matches.size()))
     return refuse(Status::kNoConsensus);
-  const Eigen::LLT<Mat3<S>> factor(sum.information);
-  if (factor.info() != Eigen::Success) return refuse(Status::kDegenerate);
-  result.covariance = factor.solve(Mat3<S>::Identity());
+  if (!inverse_of<S, 3>(sum.information, result.covariance)) return refuse(Status::kDegenerate);
   if (!(result.covariance.diagonal().maxCoeff() < options.max_sigma * options.max_sigma))
     return refuse(Status::kDegenerate);
   result.status = Status::kOk;

@@ -4,7 +4,6 @@
 // known direction.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include <span>
 
 #include "sslam/core/status.hpp"
+#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/line_problem.hpp"
 
 namespace sslam {
@@ -82,11 +82,11 @@ template <Scalar S, class Line>
   const Status trimmed = trim(views, origin, found, options, result);
   if (trimmed != Status::kOk) return trimmed;
   result.line = {found.moment + origin.cross(found.direction), found.direction};
-  const Eigen::LLT<Mat<S, D, D>> factor(summary.information);
-  if (factor.info() != Eigen::Success) return Status::kLowParallax;
+  Mat<S, D, D> line_covariance;
+  if (!inverse_of<S, D>(summary.information, line_covariance)) return Status::kLowParallax;
   const auto covariance = [&](const Vec3<S>& at) -> Mat3<S> {
     const Mat<S, 3, D> j = across_jacobian(line, Vec3<S>(at - origin));
-    return j * factor.solve(j.transpose());
+    return j * line_covariance * j.transpose();
   };
   result.covariance = covariance((result.start + result.end) / 2);
   for (const Vec3<S>& end : {result.start, result.end}) {

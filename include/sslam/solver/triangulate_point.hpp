@@ -11,6 +11,7 @@
 
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/se3.hpp"
+#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/epipolar.hpp"
 
 namespace sslam {
@@ -152,10 +153,8 @@ template <Scalar S>
     if (settled) break;
   }
   result.max_error = std::sqrt(now.worst);
-  const Eigen::LLT<Mat3<S>> factor(now.h);
-  if (factor.info() != Eigen::Success) return refuse(Status::kLowParallax);
+  if (!inverse_of<S, 3>(now.h, result.covariance)) return refuse(Status::kLowParallax);
   result.point = x + origin;
-  result.covariance = factor.solve(Mat3<S>::Identity());
   if (!result.covariance.allFinite()) return refuse(Status::kLowParallax);
   return refuse(result.max_error > options.max_error ? Status::kNoConsensus : Status::kOk);
 }

@@ -31,12 +31,12 @@ Scene make_scene(int cameras, double step, double noise_px, std::uint64_t seed, 
   Scene scene;
   const Vec3<double> origin = far * Vec3<double>(1, -0.5, 0.7);
   scene.point =
-      origin + Vec3<double>(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(2.0, 6.0));
+      origin + Vec3<double>{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(2.0, 6.0)};
   for (int i = 0; i < cameras; ++i) {
     SE3<double> pose;
     pose.rotation = SO3<double>::exp(0.1 * random_direction(random));
     const Vec3<double> centre =
-        origin + step * Vec3<double>(i, 0.3 * gaussian(random), 0.3 * gaussian(random));
+        origin + step * Vec3<double>{double(i), 0.3 * gaussian(random), 0.3 * gaussian(random)};
     pose.translation = -(pose.rotation * centre);
     const Vec3<double> x = pose * scene.point;
     Vec2<double> seen = x.head<2>() / x.z();

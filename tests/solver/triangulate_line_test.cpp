@@ -61,8 +61,7 @@ Scene make_scene(const SceneOptions& o, std::uint64_t seed) {
     pose.translation = -(pose.rotation * centre);
     const auto see = [&](const Vec3<double>& x) {
       const Vec3<double> y = pose * x;
-      return Vec2<double>(y.head<2>() / y.z() +
-                          o.noise / 500 * Vec2<double>(gaussian(random), gaussian(random)));
+      return Vec2<double>(y.head<2>() / y.z() + o.noise / 500 * gaussian_vector<2>(random));
     };
     Vec3<double> p = scene.a + random.uniform(0.0, 0.2) * (scene.b - scene.a);
     Vec3<double> q = scene.b - random.uniform(0.0, 0.2) * (scene.b - scene.a);

@@ -6,8 +6,10 @@
 #include "sslam/core/random.hpp"
 #include "sslam/solver/mean_shift.hpp"
 #include "support/catch.hpp"
+#include "support/random_draws.hpp"
 
 using namespace sslam;
+using namespace sslam::testing;
 
 namespace {
 
@@ -29,13 +31,6 @@ struct Cloud {
   }
 };
 
-// Sum of twelve uniforms: close enough to a Gaussian, and the same everywhere.
-double gaussian(Random& random) {
-  double sum = -6;
-  for (int i = 0; i < 12; ++i) sum += random.uniform(0.0, 1.0);
-  return sum;
-}
-
 // `count` directions around z, at (du, dv) on its tangent plane with the given scatter, radians.
 Cloud cluster(int count, double du, double dv, double scatter) {
   Random random(5);
@@ -56,9 +51,10 @@ TEMPLATE_TEST_CASE("the boosted step all but reaches the mode", "[mean_shift]", 
     const Cloud cloud = cluster(20000, 0.03, -0.02, scatter);
     const auto moments = frame_moments<S>(cloud.view(), Mat3<S>(Mat3<S>::Identity()), width)[2];
     const S gain = kernel_gain(moments.variance, width);
-    // Axis 2: tangent coordinates along axes 0 and 1.
-    CHECK(gain * moments.mean.x() == Approx(0.03).epsilon(0.2));
-    CHECK(gain * moments.mean.y() == Approx(-0.02).epsilon(0.2));
+    // Axis 2: tangent coordinates along axes 0 and 1. A scatter as wide as the kernel oversteps a little.
+    const double tolerance = scatter < 0.05 ? 0.1 : 0.3;
+    CHECK(gain * moments.mean.x() == Approx(0.03).epsilon(tolerance));
+    CHECK(gain * moments.mean.y() == Approx(-0.02).epsilon(tolerance));
     CHECK(std::sqrt(gain * moments.variance) == Approx(scatter).epsilon(0.12));
     CHECK(gain * moments.mass == Approx(20000).epsilon(0.25));
   }
@@ -81,7 +77,7 @@ TEST_CASE("each axis has its own tangent coordinates", "[mean_shift]") {
 TEST_CASE("flat clutter has the variance of the kernel and no finite spread", "[mean_shift]") {
   Random random(9);
   Cloud cloud;
-  for (int i = 0; i < 200000; ++i) cloud.add({gaussian(random), gaussian(random), gaussian(random)});
+  for (int i = 0; i < 200000; ++i) cloud.add(gaussian_vector<3>(random));
   const double width = radians(4.0);
   for (const auto& axis :
        frame_moments<double>(cloud.view(), Mat3<double>(Mat3<double>::Identity()), width)) {
