@@ -83,10 +83,10 @@ class KernelCalls {
 
   // (x0 - 1)^2 + (x0 x1 - 2)^2
   struct Bowl {
-    S operator()(const Euclidean<S, 2>& x, NormalEquations<S, 2>* equations) const noexcept {
+    S operator()(const Euclidean<S, 2>& x, NormalEquations<S, 2>& equations) const noexcept {
       const S r0 = x.value[0] - 1, r1 = x.value[0] * x.value[1] - 2;
-      equations->add({S(1), S(0)}, r0, S(1));
-      equations->add({x.value[1], x.value[0]}, r1, S(1));
+      equations.add({S(1), S(0)}, r0, S(1));
+      equations.add({x.value[1], x.value[0]}, r1, S(1));
       return r0 * r0 + r1 * r1;
     }
   };

@@ -6,6 +6,7 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/solver/block_kernels.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 #include "support/catch.hpp"
 
 namespace {

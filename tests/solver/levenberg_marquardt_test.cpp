@@ -16,22 +16,22 @@ using Flat2 = Euclidean<S, 2>;
 
 // Rosenbrock's valley as two residuals, 10 (y - x^2) and 1 - x: the minimum is at (1, 1).
 template <class S>
-S rosenbrock(const Flat2<S>& at, NormalEquations<S, 2>* equations) {
+S rosenbrock(const Flat2<S>& at, NormalEquations<S, 2>& equations) {
   const S x = at.value.x(), y = at.value.y();
   const S r0 = 10 * (y - x * x), r1 = 1 - x;
-  equations->add({-20 * x, 10}, r0, 1);
-  equations->add({-1, 0}, r1, 1);
+  equations.add({-20 * x, 10}, r0, 1);
+  equations.add({-1, 0}, r1, 1);
   return r0 * r0 + r1 * r1;
 }
 
 // (x - 3)^2 as one row; beyond x = limit it answers as `beyond` says.
 template <class S, class Beyond>
 auto parabola(S limit, Beyond beyond) {
-  return [=](const Euclidean<S, 1>& at, NormalEquations<S, 1>* equations) {
+  return [=](const Euclidean<S, 1>& at, NormalEquations<S, 1>& equations) {
     const S r = at.value[0] - 3;
-    equations->add(Mat<S, 1, 1>(S(1)), r, 1);
+    equations.add(Mat<S, 1, 1>(S(1)), r, 1);
     Evaluated<S> answer{r * r, 1};
-    if (at.value[0] > limit) beyond(answer, *equations);
+    if (at.value[0] > limit) beyond(answer, equations);
     return answer;
   };
 }
@@ -55,12 +55,12 @@ TEMPLATE_TEST_CASE("a curved valley is followed to its end", "", float, double) 
 
 TEMPLATE_TEST_CASE("a linear problem takes no more than three steps", "", float, double) {
   using S = TestType;
-  const auto line_fit = [](const Flat2<S>& at, NormalEquations<S, 2>* equations) {
+  const auto line_fit = [](const Flat2<S>& at, NormalEquations<S, 2>& equations) {
     S cost = 0;
     for (int i = 0; i < 10; ++i) {
       const S t = static_cast<S>(i);
       const S r = at.value.x() + at.value.y() * t - (2 + S(0.5) * t + (i % 2 == 0 ? S(0.1) : S(-0.1)));
-      equations->add({1, t}, r, 1);
+      equations.add({1, t}, r, 1);
       cost += r * r;
     }
     return cost;
@@ -82,12 +82,12 @@ TEMPLATE_TEST_CASE("a linear problem takes no more than three steps", "", float,
 TEMPLATE_TEST_CASE("a rotation is found on its manifold", "", float, double) {
   using S = TestType;
   const auto truth = SO3<S>::exp({S(1.2), S(-0.7), S(0.4)});
-  const auto align = [&](const SO3<S>& r, NormalEquations<S, 3>* equations) {
+  const auto align = [&](const SO3<S>& r, NormalEquations<S, 3>& equations) {
     S cost = 0;
     for (int i = 0; i < 3; ++i) {
       const Vec3<S> a = r * Vec3<S>(Vec3<S>::Unit(i)), e = a - truth * Vec3<S>(Vec3<S>::Unit(i));
       const Mat3<S> j = -hat(a);
-      for (int k = 0; k < 3; ++k) equations->add(j.row(k), e[k], 1);
+      for (int k = 0; k < 3; ++k) equations.add(j.row(k), e[k], 1);
       cost += e.squaredNorm();
     }
     return cost;
@@ -143,8 +143,8 @@ TEMPLATE_TEST_CASE("a start that is not finite is refused", "", float, double) {
 
 TEMPLATE_TEST_CASE("a matrix that cannot be factored leaves the state", "", float, double) {
   using S = TestType;
-  const auto concave = [](const Euclidean<S, 1>& at, NormalEquations<S, 1>* equations) {
-    equations->add(Mat<S, 1, 1>(S(1)), at.value[0], S(-1));
+  const auto concave = [](const Euclidean<S, 1>& at, NormalEquations<S, 1>& equations) {
+    equations.add(Mat<S, 1, 1>(S(1)), at.value[0], S(-1));
     return S(1);
   };
   Euclidean<S, 1> x{Vec<S, 1>(S(0.5))};
@@ -158,7 +158,7 @@ TEMPLATE_TEST_CASE("a matrix that cannot be factored leaves the state", "", floa
 TEMPLATE_TEST_CASE("nothing to minimise", "", float, double) {
   using S = TestType;
   Euclidean<S, 1> x;
-  const auto nothing = [](const Euclidean<S, 1>&, NormalEquations<S, 1>*) { return S(0); };
+  const auto nothing = [](const Euclidean<S, 1>&, NormalEquations<S, 1>&) { return S(0); };
   CHECK(minimize(nothing, x).status == Status::kTooFew);
   LmOptions none;
   none.max_iterations = 0;
@@ -170,9 +170,9 @@ TEMPLATE_TEST_CASE("nothing to minimise", "", float, double) {
 TEMPLATE_TEST_CASE("an ascent is never taken", "", float, double) {
   using S = TestType;
   // The derivative points the wrong way, so that every step climbs.
-  const auto wrong_way = [](const Euclidean<S, 1>& at, NormalEquations<S, 1>* equations) {
+  const auto wrong_way = [](const Euclidean<S, 1>& at, NormalEquations<S, 1>& equations) {
     const S r = at.value[0] - 3;
-    equations->add(Mat<S, 1, 1>(S(-1)), r, 1);
+    equations.add(Mat<S, 1, 1>(S(-1)), r, 1);
     return r * r;
   };
   Euclidean<S, 1> x{Vec<S, 1>(S(1))};
@@ -185,9 +185,9 @@ TEMPLATE_TEST_CASE("an ascent is never taken", "", float, double) {
 
 TEMPLATE_TEST_CASE("a direction without information is told", "", float, double) {
   using S = TestType;
-  const auto one_way = [](const Flat2<S>& at, NormalEquations<S, 2>* equations) {
+  const auto one_way = [](const Flat2<S>& at, NormalEquations<S, 2>& equations) {
     const S r = at.value.x() + 2 * at.value.y() - 1;
-    equations->add({1, 2}, r, 1);
+    equations.add({1, 2}, r, 1);
     return r * r;
   };
   Flat2<S> x;

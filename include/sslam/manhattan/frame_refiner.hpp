@@ -11,6 +11,7 @@
 
 #include "sslam/manhattan/line_circles.hpp"
 #include "sslam/manhattan/normal_modes.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 
@@ -48,19 +49,6 @@ template <Scalar S>
   system.H = Mat2<S>::Identity() * weight;
   system.g = -weight * offset;
   return system;
-}
-
-// Inverse of a symmetric positive matrix; false, and no change, where it has none. Column by column, since
-// with a matrix on the right Eigen takes the path for large ones, which knows malloc.
-template <Scalar S>
-[[nodiscard]] bool invert(const Mat3<S>& m, Mat3<S>& inverse) noexcept {
-  const Eigen::LLT<Mat3<S>> llt(m);
-  if (llt.info() != Eigen::Success) return false;
-  Mat3<S> columns;
-  for (int c = 0; c < 3; ++c) columns.col(c) = llt.solve(Vec3<S>(Vec3<S>::Unit(c)));
-  if (!columns.allFinite()) return false;
-  inverse = columns;
-  return true;
 }
 
 // Smallest eigenvalue of a symmetric 2 x 2 matrix.
@@ -139,7 +127,7 @@ class FrameRefiner {
     estimate.cam_from_manhattan = rotation_;
     const Mat3<S> axes = rotation_.matrix();
     Mat3<S> covariance = Mat3<S>::Zero();
-    const bool certain = invert(posterior_, covariance);
+    const bool certain = inverse_of<S, 3>(posterior_, covariance);
     estimate.covariance = axes * covariance * axes.transpose();
     S squared = 0;
     S count = 0;

@@ -10,6 +10,7 @@
 #include "sslam/manhattan/cube.hpp"
 #include "sslam/manhattan/frame_refiner.hpp"
 #include "sslam/manhattan/turned_start.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 
@@ -82,7 +83,7 @@ template <Scalar S, Scalar V = S>
   if (!prior.covariance.allFinite() || !prior.cam_from_manhattan.matrix().allFinite())
     return detail::refusal<S>(Status::kNotFinite);
   Mat3<S> information;
-  if (!detail::invert(prior.covariance, information)) return detail::refusal(Status::kNotFinite, prior);
+  if (!inverse_of<S, 3>(prior.covariance, information)) return detail::refusal(Status::kNotFinite, prior);
   const detail::FrameVotes<S, V> votes(normals, lines);
   if (!votes.finite()) return detail::refusal(Status::kNotFinite, prior);
   if (votes.empty()) return detail::refusal(Status::kTooFew, prior);

@@ -42,41 +42,6 @@ void add_product(const Mat<S, R, M>& a, const Vec<S, R>& e, S w, Vec<S, M>& g) n
   }
 }
 
-// L^-1 of H = L L^T; only the lower half of H is read. False, with `out` untouched, where H is not positive
-// definite.
-template <Scalar S, int D>
-[[nodiscard]] bool inverse_root(const Mat<S, D, D>& H, Mat<S, D, D>& out) noexcept {
-  Mat<S, D, D> l = H;
-  for (int c = 0; c < D; ++c) {
-    for (int k = 0; k < c; ++k)
-      for (int r = c; r < D; ++r) l(r, c) -= l(r, k) * l(c, k);
-    if (!(l(c, c) > 0)) return false;
-    const S inverse = 1 / std::sqrt(l(c, c));
-    l(c, c) = inverse;  // the diagonal is kept inverted
-    for (int r = c + 1; r < D; ++r) l(r, c) *= inverse;
-  }
-  out.setZero();
-  for (int c = 0; c < D; ++c) {
-    out(c, c) = l(c, c);
-    for (int r = c + 1; r < D; ++r) {
-      S sum = 0;
-      for (int k = c; k < r; ++k) sum += l(r, k) * out(k, c);
-      out(r, c) = -sum * l(r, r);
-    }
-  }
-  return true;
-}
-
-// H^-1 of a positive definite H; otherwise false. Eigen's solve for a right side of several columns calls its
-// blocked routines, which bring the heap, a guarded static and 15 kB of code even for 3 x 3.
-template <Scalar S, int D>
-[[nodiscard]] bool inverse_of(const Mat<S, D, D>& H, Mat<S, D, D>& out) noexcept {
-  Mat<S, D, D> root;
-  if (!inverse_root<S, D>(H, root)) return false;
-  out = root.transpose() * root;
-  return true;
-}
-
 // W L^T for a lower triangular L.
 template <Scalar S, int M, int D>
 [[nodiscard]] Mat<S, M, D> times_transposed_lower(const Mat<S, M, D>& W, const Mat<S, D, D>& L) noexcept {

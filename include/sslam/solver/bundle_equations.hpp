@@ -9,6 +9,7 @@
 
 #include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/bundle_graph.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 

@@ -66,23 +66,18 @@ class EpipolarProblem {
   }
 
   [[nodiscard]] Evaluated<S> operator()(const RelativePose<S>& pose,
-                                        NormalEquations<S, 5>* equations) const noexcept {
+                                        NormalEquations<S, 5>& equations) const noexcept {
     const Mat3<S> R = pose.R_10.matrix();
     const Mat<S, 3, 2> basis = tangent_basis(pose.t_10);
     Evaluated<S> sum;
     for (const BearingMatch<S>& match : matches_) {
       if (!accepts(match)) continue;
       ++sum.count;
-      if (!equations) {
-        const S r = epipolar_residual(R, pose.t_10, match);
-        sum.cost += kLoss.rho(r * r);
-        continue;
-      }
       const EpipolarRow<S> row = epipolar_row(R, pose.t_10, match);
       Mat<S, 1, 5> j;
       j << row.wrt_rotation.transpose(), row.wrt_translation.transpose() * basis;
       const S squared = row.residual * row.residual;
-      equations->add(j, row.residual, kLoss.weight(squared));
+      equations.add(j, row.residual, kLoss.weight(squared));
       sum.cost += kLoss.rho(squared);
     }
     sum.cost += prior(pose, equations);
@@ -93,14 +88,13 @@ class EpipolarProblem {
   static constexpr CauchyLoss<S> kLoss{.width = 2};  // standard deviations
 
  private:
-  [[nodiscard]] S prior(const RelativePose<S>& pose, NormalEquations<S, 5>* equations) const noexcept {
+  [[nodiscard]] S prior(const RelativePose<S>& pose, NormalEquations<S, 5>& equations) const noexcept {
     if (options_.prior_information.isZero(S(0))) return 0;
     const Vec3<S> phi = (pose.R_10 * options_.prior_R_10.inverse()).log();
     const Vec3<S> pull = options_.prior_information * phi;
-    if (equations) {  // to first order in phi, which the prior keeps small
-      equations->H.template topLeftCorner<3, 3>() += options_.prior_information;
-      equations->g.template head<3>() += pull;
-    }
+    // To first order in phi, which the prior keeps small.
+    equations.H.template topLeftCorner<3, 3>() += options_.prior_information;
+    equations.g.template head<3>() += pull;
     return phi.dot(pull);
   }
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/epipolar.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 

@@ -94,7 +94,7 @@ struct Linearized {
 
   template <class Problem, class X>
   Linearized(const Problem& problem, const X& x) noexcept {
-    value = counted(problem(x, &equations));
+    value = counted(problem(x, equations));
     equations.complete();
   }
   [[nodiscard]] bool finite() const noexcept {
@@ -118,7 +118,7 @@ struct Linearized {
 
 }  // namespace detail
 
-// problem(x, equations) adds its rows at x to *equations and returns the cost, or Evaluated<S> where not
+// problem(x, equations) adds its rows at x to equations and returns the cost, or Evaluated<S> where not
 // every observation is valid at every state. A step is refused, and the damping raised, when H cannot be
 // factored, when anything is not finite, when the cost does not fall or when the number of valid observations
 // changes; the state only ever changes to a better one.

@@ -68,7 +68,7 @@ struct LineProblem {
 
   template <class Line>
   [[nodiscard]] Evaluated<S> operator()(const Line& line,
-                                        NormalEquations<S, Line::kDof>* equations) const noexcept {
+                                        NormalEquations<S, Line::kDof>& equations) const noexcept {
     Evaluated<S> sum;
     LineReprojection<S> r;
     for (const LineView<S>& view : views) {
@@ -77,9 +77,8 @@ struct LineProblem {
       const S weight = 1 / (view.sigma * view.sigma);
       sum.cost += weight * r.error.squaredNorm();
       sum.count += 2;
-      if (!equations) continue;
       const Mat<S, 2, Line::kDof> j = jacobian(r, cam, line);
-      for (int i = 0; i < 2; ++i) equations->add(j.row(i), r.error[i], weight);
+      for (int i = 0; i < 2; ++i) equations.add(j.row(i), r.error[i], weight);
     }
     return sum;
   }

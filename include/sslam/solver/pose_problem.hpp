@@ -68,7 +68,7 @@ struct PoseProblem {
   HuberLoss<S> prior_loss;
 
   template <class X>
-  Evaluated<S> operator()(const X& x, NormalEquations<S, X::kDof>* equations) const noexcept {
+  Evaluated<S> operator()(const X& x, NormalEquations<S, X::kDof>& equations) const noexcept {
     constexpr int D = X::kDof;
     const SE3<S>& pose = pose_of(x);
     Evaluated<S> sum;
@@ -78,24 +78,20 @@ struct PoseProblem {
           !point_reprojection(pinhole, pose, points[i].point_world, points[i].pixel, point))
         continue;
       const S inverse = 1 / (points[i].sigma * points[i].sigma);
-      add<D>(point.error, inverse, sum, equations, [&] {
-        if constexpr (D == 6)
-          return point.wrt_pose();
-        else
-          return point.wrt_translation();
-      });
+      if constexpr (D == 6)
+        add<D>(point.error, point.wrt_pose(), inverse, sum, equations);
+      else
+        add<D>(point.error, point.wrt_translation(), inverse, sum, equations);
     }
     LineReprojection<S> line;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!line_inliers[i] || !line_reprojection(pinhole, pose, lines[i].line_world, lines[i].segment, line))
         continue;
       const S inverse = 1 / (lines[i].sigma * lines[i].sigma);
-      add<D>(line.error, inverse, sum, equations, [&] {
-        if constexpr (D == 6)
-          return line.wrt_pose();
-        else
-          return line.wrt_translation();
-      });
+      if constexpr (D == 6)
+        add<D>(line.error, line.wrt_pose(), inverse, sum, equations);
+      else
+        add<D>(line.error, line.wrt_translation(), inverse, sum, equations);
     }
     if constexpr (D == 6)
       if (prior != nullptr) add_prior(pose, sum, equations);
@@ -103,30 +99,26 @@ struct PoseProblem {
   }
 
  private:
-  template <int D, class Jacobian>
-  void add(const Vec2<S>& error, S inverse_variance, Evaluated<S>& sum, NormalEquations<S, D>* equations,
-           Jacobian jacobian) const noexcept {
+  template <int D>
+  void add(const Vec2<S>& error, const Mat<S, 2, D>& jacobian, S inverse_variance, Evaluated<S>& sum,
+           NormalEquations<S, D>& equations) const noexcept {
     const S squared = error.squaredNorm() * inverse_variance;
     sum.cost += loss.rho(squared);
     ++sum.count;
-    if (equations == nullptr) return;
     const S w = inverse_variance * loss.weight(squared);
-    const Mat<S, 2, D> j = jacobian();
-    equations->add(j.row(0), error[0], w);
-    equations->add(j.row(1), error[1], w);
+    for (int i = 0; i < 2; ++i) equations.add(jacobian.row(i), error[i], w);
   }
 
   // e = Log(R R_prior^-1), d e / d phi = J^-1(e).
-  void add_prior(const SE3<S>& pose, Evaluated<S>& sum, NormalEquations<S, 6>* equations) const noexcept {
+  void add_prior(const SE3<S>& pose, Evaluated<S>& sum, NormalEquations<S, 6>& equations) const noexcept {
     const Vec3<S> e = (pose.rotation * prior->cam_from_world.inverse()).log();
     const Vec3<S> weighted = prior->information * e;
     const S squared = e.dot(weighted);
     sum.cost += prior_loss.rho(squared);
-    if (equations == nullptr) return;
     const S w = prior_loss.weight(squared);
     const Mat3<S> j = left_jacobian_inverse(e);
-    equations->H.template topLeftCorner<3, 3>() += w * (j.transpose() * prior->information * j);
-    equations->g.template head<3>() += w * (j.transpose() * weighted);
+    equations.H.template topLeftCorner<3, 3>() += w * (j.transpose() * prior->information * j);
+    equations.g.template head<3>() += w * (j.transpose() * weighted);
   }
 };
 

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "sslam/core/status.hpp"
-#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/epipolar_problem.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 
@@ -41,7 +41,7 @@ template <Scalar S>
   const Mat3<S> R = pose.R_10.matrix();
   const Mat<S, 3, 2> basis = tangent_basis(pose.t_10);
   RelativePoseTally<S> sum;
-  (void)problem(pose, &sum.equations);
+  (void)problem(pose, sum.equations);
   sum.equations.complete();
   Flow<S> flow;
   for (const BearingMatch<S>& match : matches) {

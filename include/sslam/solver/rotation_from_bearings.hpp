@@ -12,7 +12,7 @@
 
 #include "sslam/core/status.hpp"
 #include "sslam/solver/bearing_pair.hpp"
-#include "sslam/solver/block_kernels.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 #include "sslam/solver/stratified_sample.hpp"
 
 namespace sslam {

@@ -12,8 +12,8 @@
 #include <span>
 
 #include "sslam/core/status.hpp"
-#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/line_problem.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 

@@ -11,8 +11,8 @@
 
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/se3.hpp"
-#include "sslam/solver/block_kernels.hpp"
 #include "sslam/solver/epipolar.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 

@@ -1,0 +1,17 @@
+# Real recordings, where they are at hand: the accuracy that the project promises for each, with one set of defaults.
+set(SSLAM_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH "Folder of the recordings that the tests run on")
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+function(sslam_sequence_test recording normals share ate)
+  set(name "sequence: ${recording} with normals ${normals}")
+  add_test(NAME "${name}"
+           COMMAND Python3::Interpreter ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/check_sequence.py $<TARGET_FILE:sslam>
+                   ${SSLAM_DATA}/${recording} ${normals} ${share} ${ate})
+  set_tests_properties("${name}" PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+sslam_sequence_test(tum_fr3_structure_notexture_far depth 0.9 0.06)
+sslam_sequence_test(tum_fr3_structure_notexture_far none 0.8 0.1)
+sslam_sequence_test(icl_nuim_of_kt0 depth 0.8 0.015)
+sslam_sequence_test(icl_nuim_of_kt0 none 0.8 0.015)
+sslam_sequence_test(office_kt2 none 0.95 0.05)
