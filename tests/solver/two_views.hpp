@@ -49,11 +49,11 @@ inline TwoViews make_two_views(const TwoViewOptions& o, std::uint64_t seed) {
   const auto spread = [&](double limit) { return random.uniform(-limit, limit); };
   TwoViews views;
   views.R_10 = SO3<double>::exp(radians(o.turn) * random_direction(random));
-  views.t_10 = Vec3<double>(spread(1), spread(0.5), spread(0.7)).normalized();
-  const Vec3<double> plane(spread(0.5), spread(0.5), 1);
+  views.t_10 = Vec3<double>{spread(1), spread(0.5), spread(0.7)}.normalized();
+  const Vec3<double> plane{spread(0.5), spread(0.5), 1};
   if (o.scene == TwoViewOptions::kCollinear) views.t_10 = views.R_10 * Vec3<double>(1, 0.2, 0).normalized();
   while (static_cast<int>(views.matches.size()) < o.matches) {
-    Vec3<double> ray0(spread(0.6), spread(0.45), 1);
+    Vec3<double> ray0{spread(0.6), spread(0.45), 1};
     double depth = random.uniform(2.0, 6.0);
     if (o.scene == TwoViewOptions::kCollinear) ray0.y() = 0.2 * ray0.x();
     if (o.scene == TwoViewOptions::kFlat) depth = 4 / plane.dot(ray0);
