@@ -95,6 +95,8 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "keyframes to triangulate with");
     visit("mapping.probation", p.mapping.culling.probation, Unit::kNumber,
           "keyframes for which a landmark is young");
+    visit("mapping.redundant_share", p.mapping.keyframe_culling.redundant_share, Unit::kNumber,
+          "of a keyframe's landmarks, seen well elsewhere: it is removed (over 1: never)");
   }
 }
 

@@ -59,7 +59,8 @@ void collect_map(const P& pipeline, RunOutcome& outcome) {
   for (const auto& line : map.lines)
     if (line.alive) outcome.lines.push_back({line.start, line.end, line.axis});
   for (const auto& keyframe : map.keyframes)
-    outcome.keyframes.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
+    if (keyframe.alive())
+      outcome.keyframes.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
   for (const auto& entry : pipeline.trajectory().entries())
     outcome.trajectory.push_back({entry.stamp, pipeline.trajectory().pose(map, entry).inverse()});
   const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };

@@ -82,6 +82,25 @@ TEST_CASE("A keyframe that joins with matches enters them and drops dead ones") 
   REQUIRE(map.keyframes[map.index(id)].point_landmarks[1] == kNone);
 }
 
+TEST_CASE("A keyframe that is erased leaves its place to its heir and nothing else") {
+  Map<double> map = small_map();
+  for (int k = 0; k < 3; ++k) map.keyframes[map.index(k)].cam_from_world.translation.x() = k;
+  map.erase_keyframe(1, 2);
+  REQUIRE_FALSE(map.keyframes[1].alive());
+  REQUIRE(map.keyframes[1].frame.points.empty());
+  REQUIRE(map.points[0].observations.size() == 2);
+  REQUIRE_FALSE(map.points[1].alive);  // a single keyframe saw it any more
+  REQUIRE(map.keyframes[0].neighbours.size() == 1);
+  REQUIRE(map.keyframes[0].neighbours[0].keyframe == 2);
+  REQUIRE(map.pose(1).translation.x() == Approx(1));
+  map.keyframes[2].cam_from_world.translation.x() += 5;
+  REQUIRE(map.pose(1).translation.x() == Approx(6));
+  map.erase_keyframe(2, 0);
+  REQUIRE(map.pose(1).translation.x() == Approx(6));
+  map.keyframes[0].cam_from_world.translation.x() -= 3;
+  REQUIRE(map.pose(1).translation.x() == Approx(3));
+}
+
 TEST_CASE("The local map lists each landmark once and keyframes by what they share") {
   const Map<double> map = small_map();
   LocalMap<double> local;

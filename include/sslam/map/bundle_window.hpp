@@ -44,7 +44,8 @@ class BundleWindow {
   // Every keyframe moves.
   void gather_all(const Map<S>& map, const BundleWindowOptions<S>& options) {
     keyframes.clear();
-    for (const Keyframe<S>& kf : map.keyframes) keyframes.push_back(kf.id);
+    for (const Keyframe<S>& kf : map.keyframes)
+      if (kf.alive()) keyframes.push_back(kf.id);
     build(map, options);
   }
 

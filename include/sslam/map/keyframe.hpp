@@ -33,6 +33,11 @@ struct Keyframe {
   std::vector<std::int8_t> line_axes;       // Manhattan axis of each line, kNone where there is none
   std::optional<RotationObservation<S>> manhattan;
   std::vector<Neighbour> neighbours;  // covisibility, most shared first
+  // Of a keyframe that was removed as redundant: who carries its place on. Nothing else is left of it.
+  KeyframeId heir = kNone;
+  SE3<S> cam_from_heir;
+
+  [[nodiscard]] bool alive() const noexcept { return heir == kNone; }
 };
 
 }  // namespace sslam

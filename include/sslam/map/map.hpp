@@ -99,6 +99,32 @@ class Map {
     erase_line(from);
   }
 
+  // Withdraws all that the keyframe sees and frees its features; what hangs on its pose now hangs on `heir`,
+  // which must be alive. Its id stays unused.
+  void erase_keyframe(KeyframeId id, KeyframeId heir) {
+    const auto forget_all = [&](std::vector<LandmarkId> seen, auto forget) {
+      for (const LandmarkId landmark : seen)
+        if (landmark != kNone) forget(landmark);
+    };
+    forget_all(keyframes[index(id)].point_landmarks, [&](LandmarkId p) { forget_point(p, id); });
+    forget_all(keyframes[index(id)].line_landmarks, [&](LandmarkId l) { forget_line(l, id); });
+    Keyframe<S>& kf = keyframes[index(id)];
+    for (const Neighbour& n : kf.neighbours) set_neighbour(keyframes[index(n.keyframe)].neighbours, {id, 0});
+    Keyframe<S> rest;
+    rest.id = id;
+    rest.heir = heir;
+    rest.cam_from_heir = kf.cam_from_world * keyframes[index(heir)].cam_from_world.inverse();
+    kf = std::move(rest);
+  }
+
+  // cam_from_world of a keyframe, alive or carried on by its heirs.
+  [[nodiscard]] SE3<S> pose(KeyframeId id) const noexcept {
+    SE3<S> cam_from_carrier;
+    for (; !keyframes[index(id)].alive(); id = keyframes[index(id)].heir)
+      cam_from_carrier = cam_from_carrier * keyframes[index(id)].cam_from_heir;
+    return cam_from_carrier * keyframes[index(id)].cam_from_world;
+  }
+
   // Counts anew which keyframes share landmarks with this one, on both sides.
   void update_covisibility(KeyframeId id) {
     shared_.assign(keyframes.size(), 0);

@@ -7,6 +7,7 @@
 
 #include "sslam/track/culling.hpp"
 #include "sslam/track/fusion.hpp"
+#include "sslam/track/keyframe_culling.hpp"
 #include "sslam/track/new_landmarks.hpp"
 
 namespace sslam {
@@ -30,6 +31,7 @@ class KeyframeMapping {
   NewLandmarks<S> creation;
   LandmarkFusion<S> fusion;
   LandmarkCulling<S> culling;
+  KeyframeCulling<S> keyframe_culling;
   Optimiser optimiser;
 
   // The tracked frame joins the map; its pose and matches are updated with what mapping makes of them.
@@ -40,6 +42,7 @@ class KeyframeMapping {
     fusion.fuse(map, id);
     map.update_covisibility(id);
     optimiser.optimise(map, id);
+    keyframe_culling.cull(map, id);
     read_back(map, id, frame);
     return id;
   }

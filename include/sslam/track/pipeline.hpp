@@ -160,7 +160,7 @@ class Pipeline {
     PoseEstimate<S> estimate;
     const auto count = static_cast<int>(map_.keyframes.size());
     for (int i = 0; i < std::min(relocalisation_tries, count) && !estimate.ok(); ++i) {
-      const KeyframeId candidate = i == 0 ? reference_ : static_cast<KeyframeId>(next_candidate_++ % count);
+      const KeyframeId candidate = i == 0 ? reference_ : next_candidate();
       current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
       estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
       if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
@@ -168,6 +168,14 @@ class Pipeline {
     }
     timer.end(Stage::kFallback);
     return estimate;
+  }
+
+  // The keyframes in turn; the first one is always alive.
+  KeyframeId next_candidate() {
+    const auto count = static_cast<KeyframeId>(map_.keyframes.size());
+    do last_candidate_ = (last_candidate_ + 1) % count;
+    while (!map_.keyframes[map_.index(last_candidate_)].alive());
+    return last_candidate_;
   }
 
   void lose(TrackResult<S>& result, Reason reason) {
@@ -231,7 +239,7 @@ class Pipeline {
   int frames_since_keyframe_ = 0;
   int lost_frames_ = 0;   // in a row
   int unfit_frames_ = 0;  // of them, those that showed enough to be recognised
-  int next_candidate_ = 0;
+  KeyframeId last_candidate_ = kNone;
 };
 
 }  // namespace sslam

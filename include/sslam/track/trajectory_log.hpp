@@ -22,13 +22,12 @@ class TrajectoryLog {
  public:
   void add(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference,
            const SE3<S>& cam_from_world) {
-    const SE3<S>& keyframe = map.keyframes[map.index(reference)].cam_from_world;
-    entries_.push_back({index, stamp, reference, cam_from_world * keyframe.inverse()});
+    entries_.push_back({index, stamp, reference, cam_from_world * map.pose(reference).inverse()});
   }
 
   // cam_from_world of an entry, by its keyframe's pose as it is now.
   [[nodiscard]] static SE3<S> pose(const Map<S>& map, const TrajectoryEntry<S>& entry) {
-    return entry.frame_from_reference * map.keyframes[map.index(entry.reference)].cam_from_world;
+    return entry.frame_from_reference * map.pose(entry.reference);
   }
 
   [[nodiscard]] const std::vector<TrajectoryEntry<S>>& entries() const noexcept { return entries_; }
