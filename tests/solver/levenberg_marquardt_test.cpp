@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE("a curved valley is followed to its end", "", float, double) 
   LmOptions options;
   options.max_iterations = 100;
   const auto summary =
-      minimize([](const auto& at, auto* equations) { return rosenbrock<S>(at, equations); }, x, options);
+      minimize([](const auto& at, auto& equations) { return rosenbrock<S>(at, equations); }, x, options);
   CHECK(summary.status == Status::kOk);
   CHECK((x.value - Vec2<S>(1, 1)).norm() < S(1e-3));
   CHECK(summary.initial_cost > S(20));

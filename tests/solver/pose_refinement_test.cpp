@@ -177,10 +177,10 @@ TEST_CASE("gradient of the whole cost entry by entry") {
         scene.line_inliers, &prior,       {2},         {prior_width}};
     const auto cost = [&](const auto& x) {
       NormalEquations<double, std::decay_t<decltype(x)>::kDof> unused;
-      return Vec<double, 1>(problem(x, &unused).cost);
+      return Vec<double, 1>(problem(x, unused).cost);
     };
     NormalEquations<double, 6> equations;
-    (void)problem(pose, &equations);
+    (void)problem(pose, equations);
     const Mat<double, 1, 6> slope = numeric_jacobian(cost, pose, 1e-5) / 2;
     CHECK(worst_entry(equations.g.transpose(), slope).error < 1e-5);
     // A prior whose derivative is taken for the identity shows this far from its mean.
@@ -192,7 +192,7 @@ TEST_CASE("gradient of the whole cost entry by entry") {
 
     NormalEquations<double, 3> position;
     const detail::TranslationState<double> state{pose};
-    (void)problem(state, &position);
+    (void)problem(state, position);
     CHECK(worst_entry(position.g.transpose(), numeric_jacobian(cost, state, 1e-5) / 2).error < 1e-5);
   }
 }
