@@ -111,6 +111,47 @@ TEST_CASE("A covered lens is a loss with a reason and the pose is found again") 
   REQUIRE(position_error(pipeline, simulation) < 0.03);
 }
 
+TEST_CASE("A later run finds its place in the map of an earlier one") {
+  Simulation simulation(walk(140));
+  presets::Structure<double> first;
+  for (std::size_t k = 0; k < 100; ++k) {
+    Frame<double> frame = simulation.frame(k);
+    (void)first.track(frame);
+  }
+  REQUIRE(first.map().world_from_manhattan.has_value());
+  presets::Structure<double> second;
+  second.resume(first.map());
+  std::vector<TrackResult<double>> results;
+  for (std::size_t k = 60; k < 140; ++k) {
+    Frame<double> frame = simulation.frame(k);
+    results.push_back(second.track(frame));
+  }
+  REQUIRE(results[0].state == State::kFallback);
+  REQUIRE(results[0].reason == Reason::kRelocalised);
+  REQUIRE(count(results, State::kManhattan) > 60);
+  // In the coordinates, and the scale, of the first run.
+  const auto& entries = first.trajectory().entries();
+  for (const auto& entry : entries)
+    if (entry.index == 80) {
+      const SE3<double> known = first.trajectory().pose(first.map(), entry);
+      REQUIRE((known.inverse().translation - results[20].cam_from_world.inverse().translation).norm() < 0.02);
+    }
+}
+
+TEST_CASE("A map that does not fit is kept and the frames are lost") {
+  Simulation simulation(walk(60));
+  presets::Structure<double> first;
+  track_all(first, simulation);
+  MapSceneOptions elsewhere = Simulation::room();
+  elsewhere.seed = 77;
+  Simulation other(walk(30), elsewhere, 5);
+  presets::Structure<double> second;
+  second.resume(first.map());
+  const auto results = track_all(second, other);
+  REQUIRE(count(results, State::kLost) == 30);
+  REQUIRE(second.map().keyframes.size() == first.map().keyframes.size());
+}
+
 TEST_CASE("A frame without features never becomes a map") {
   Simulation simulation(walk(5));
   presets::Structure<double> pipeline;

@@ -14,9 +14,10 @@ namespace sslam::testing {
 
 class Simulation {
  public:
-  explicit Simulation(std::vector<SE3<double>> path, const MapSceneOptions& options = room())
+  explicit Simulation(std::vector<SE3<double>> path, const MapSceneOptions& options = room(),
+                      std::uint64_t look = 99)
       : scene_(options, std::move(path)) {
-    Random random(99);
+    Random random(look);
     for (std::size_t i = 0; i < scene_.points.size(); ++i) point_descriptors_.push_back(draw(random));
     for (std::size_t i = 0; i < scene_.lines.size(); ++i) line_descriptors_.push_back(draw(random));
   }

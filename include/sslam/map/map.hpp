@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@ class Map {
   std::vector<Keyframe<S>> keyframes;
   std::vector<PointLandmark<S>> points;
   std::vector<LineLandmark<S>> lines;
+  std::optional<SO3<S>> world_from_manhattan;  // how the axes of the room stand in the world, once known
 
   [[nodiscard]] bool empty() const noexcept { return keyframes.empty(); }
 

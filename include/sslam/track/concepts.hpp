@@ -4,6 +4,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 
 #include "sslam/track/pose_estimate.hpp"
 #include "sslam/track/rotation.hpp"
@@ -13,9 +14,12 @@ namespace sslam {
 
 // Estimates the frame's rotation from structure alone, without drift.
 template <class T, class S>
-concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& predicted, bool mapped) {
+concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& predicted, bool mapped,
+                                 const std::optional<SO3<S>>& known) {
   { stage.rotate(frame, predicted, mapped) } -> std::same_as<RotationAnswer<S>>;
+  { stage.world_from_manhattan() } -> std::convertible_to<std::optional<SO3<S>>>;
   stage.reset();
+  stage.reset(known);
 };
 
 // Makes the first map from two frames.

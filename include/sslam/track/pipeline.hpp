@@ -50,7 +50,18 @@ class Pipeline {
       initialise(result);
     else
       follow(result);
+    map_.world_from_manhattan = rotation.world_from_manhattan();
     return result;
+  }
+
+  // Goes on in a map that was made earlier: the next frames are lost until one is recognised.
+  void resume(Map<S> map) {
+    start_over();
+    map_ = std::move(map);
+    rotation.reset(map_.world_from_manhattan);
+    reference_ = 0;  // never removed
+    lost_frames_ = 1;
+    keep_map_ = true;
   }
 
   [[nodiscard]] const Map<S>& map() const noexcept { return map_; }
@@ -91,13 +102,7 @@ class Pipeline {
 
   void follow(TrackResult<S>& result) {
     recent_.gather(*last_, *before_);
-    const SE3<S> predicted = motion_.predict(result.stamp);
-    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted.rotation, true);
-    result.axes_seen = answer.axes_seen;
-    timer.end(Stage::kRotation);
-
-    const PoseEstimate<S> estimate =
-        lost_frames_ == 0 ? track_pose(predicted, answer, result) : relocalise(result);
+    const PoseEstimate<S> estimate = lost_frames_ == 0 ? track_pose(result) : relocalise(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
@@ -112,9 +117,17 @@ class Pipeline {
     log_.add(map_, result.index, result.stamp, reference_, current_->cam_from_world);
   }
 
+  RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
+    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, true);
+    result.axes_seen = answer.axes_seen;
+    timer.end(Stage::kRotation);
+    return answer;
+  }
+
   // The decoupled way first; where it does not hold, six degrees of freedom.
-  PoseEstimate<S> track_pose(const SE3<S>& predicted, const RotationAnswer<S>& answer,
-                             TrackResult<S>& result) {
+  PoseEstimate<S> track_pose(TrackResult<S>& result) {
+    const SE3<S> predicted = motion_.predict(result.stamp);
+    const RotationAnswer<S> answer = rotate(predicted.rotation, result);
     std::optional<RotationPrior<S>> prior;
     if (current_->manhattan) prior = make_prior(*current_->manhattan);
     result.reason = Reason::kNoManhattanFrame;
@@ -167,6 +180,8 @@ class Pipeline {
       if (estimate.ok()) reference_ = candidate;
     }
     timer.end(Stage::kFallback);
+    // Only now is it known near which rotation the axes are to be looked for.
+    if (estimate.ok()) rotate(current_->cam_from_world.rotation, result);
     return estimate;
   }
 
@@ -187,7 +202,12 @@ class Pipeline {
     // A covered lens says nothing about the map; an image that shows enough and does not fit does.
     if (static_cast<int>(current_->frame.points.size() + current_->frame.lines.size()) >= telling_features)
       ++unfit_frames_;
-    if (unfit_frames_ < give_up_after || static_cast<int>(map_.keyframes.size()) >= young_map) return;
+    if (unfit_frames_ < give_up_after || keep_map_ || static_cast<int>(map_.keyframes.size()) >= young_map)
+      return;
+    start_over();
+  }
+
+  void start_over() {
     map_ = Map<S>();
     log_.clear();
     rotation.reset();
@@ -237,8 +257,9 @@ class Pipeline {
   Correspondences<S> scratch_;
   KeyframeId reference_ = kNone;
   int frames_since_keyframe_ = 0;
-  int lost_frames_ = 0;   // in a row
-  int unfit_frames_ = 0;  // of them, those that showed enough to be recognised
+  int lost_frames_ = 0;    // in a row
+  int unfit_frames_ = 0;   // of them, those that showed enough to be recognised
+  bool keep_map_ = false;  // it was not made here: however young, it is not given up
   KeyframeId last_candidate_ = kNone;
 };
 

@@ -48,9 +48,12 @@ class ManhattanRotation {
     return answer(estimate, frame);
   }
 
-  [[nodiscard]] bool anchored() const noexcept { return world_from_manhattan_.has_value(); }
-  void reset() {
-    world_from_manhattan_.reset();
+  [[nodiscard]] const std::optional<SO3<S>>& world_from_manhattan() const noexcept {
+    return world_from_manhattan_;
+  }
+  // Forgets the Manhattan frame, or goes on with one that is known.
+  void reset(const std::optional<SO3<S>>& world_from_manhattan = std::nullopt) {
+    world_from_manhattan_ = world_from_manhattan;
     candidate_.reset();
   }
 
@@ -103,7 +106,8 @@ class ManhattanRotation {
 template <Scalar S>
 struct NoRotation {
   RotationAnswer<S> rotate(TrackedFrame<S>&, const SO3<S>&, bool) { return {}; }
-  void reset() {}
+  [[nodiscard]] std::optional<SO3<S>> world_from_manhattan() const noexcept { return std::nullopt; }
+  void reset(const std::optional<SO3<S>>& = std::nullopt) {}
 };
 
 }  // namespace sslam

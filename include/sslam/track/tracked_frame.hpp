@@ -37,6 +37,7 @@ struct TrackedFrame {
   [[nodiscard]] Keyframe<S> to_keyframe() const {
     Keyframe<S> keyframe;
     keyframe.frame = frame;
+    keyframe.frame.normals = {};  // they have spoken
     keyframe.cam_from_world = cam_from_world;
     keyframe.point_landmarks = point_landmarks;
     keyframe.line_landmarks = line_landmarks;

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What of a map goes into a file, in order: one list of fields that a writer and a reader both walk.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "sslam/io/error.hpp"
+#include "sslam/map/map.hpp"
+
+namespace sslam::io {
+
+// Appends numbers to `bytes`.
+struct MapWriter {
+  static constexpr bool kReads = false;
+  std::string bytes;
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+};
+
+// Takes numbers from the front of a view; throws Error at its end.
+class MapReader {
+ public:
+  static constexpr bool kReads = true;
+  explicit MapReader(std::string_view bytes) : left_(bytes) {}
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(T& value) {
+    if (left_.size() < sizeof value) throw Error("ends too early");
+    std::memcpy(&value, left_.data(), sizeof value);
+    left_.remove_prefix(sizeof value);
+  }
+  [[nodiscard]] std::string_view left() const noexcept { return left_; }
+
+ private:
+  std::string_view left_;
+};
+
+// Walks the fields of a map with an archive, in an order that the file's version stands for.
+template <class Archive>
+class MapFields {
+ public:
+  explicit MapFields(Archive& archive) : archive_(archive) {}
+
+  void walk(Map<double>& map) {
+    fields(map.keyframes);
+    fields(map.points);
+    fields(map.lines);
+    fields(map.world_from_manhattan);
+  }
+
+ private:
+  template <int R, int C>
+  void fields(Eigen::Matrix<double, R, C>& m) {
+    for (double& value : m.reshaped()) archive_(value);
+  }
+
+  void fields(SO3<double>& rotation) {
+    Vec4<double> q(rotation.quaternion().w(), rotation.quaternion().x(), rotation.quaternion().y(),
+                   rotation.quaternion().z());
+    fields(q);
+    if constexpr (Archive::kReads) rotation = SO3<double>::from_quaternion(q[0], q[1], q[2], q[3]);
+  }
+
+  void fields(SE3<double>& pose) {
+    fields(pose.rotation);
+    fields(pose.translation);
+  }
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void fields(T& value) { archive_(value); }
+
+  template <class T>
+  void fields(std::optional<T>& value) {
+    std::uint8_t there = value.has_value() ? 1 : 0;
+    archive_(there);
+    if constexpr (Archive::kReads) value = there != 0 ? std::optional<T>(T()) : std::nullopt;
+    if (value) fields(*value);
+  }
+
+  template <class T>
+  void fields(std::vector<T>& values) {
+    std::uint64_t size = values.size();
+    archive_(size);
+    if constexpr (Archive::kReads) {
+      if (size > archive_.left().size()) throw Error("ends too early");  // an entry takes a byte or more
+      values.resize(static_cast<std::size_t>(size));
+    }
+    for (T& value : values) fields(value);
+  }
+
+  void fields(Descriptor& descriptor) {
+    for (std::uint64_t& word : descriptor.words) archive_(word);
+  }
+
+  void fields(PointFeature<double>& f) {
+    fields(f.pixel);
+    archive_(f.sigma);
+    archive_(f.angle);
+    archive_(f.octave);
+    fields(f.descriptor);
+  }
+
+  void fields(LineFeature<double>& f) {
+    fields(f.segment.start);
+    fields(f.segment.end);
+    archive_(f.sigma);
+    archive_(f.octave);
+    fields(f.descriptor);
+  }
+
+  void fields(RotationObservation<double>& o) {
+    fields(o.cam_from_world);
+    fields(o.covariance);
+  }
+
+  void fields(Neighbour& n) {
+    archive_(n.keyframe);
+    archive_(n.shared);
+  }
+
+  void fields(Observation& o) {
+    archive_(o.keyframe);
+    archive_(o.feature);
+  }
+
+  void fields(Keyframe<double>& kf) {
+    archive_(kf.id);
+    archive_(kf.frame.index);
+    archive_(kf.frame.stamp);
+    for (double* value :
+         {&kf.frame.pinhole.fx, &kf.frame.pinhole.fy, &kf.frame.pinhole.cx, &kf.frame.pinhole.cy})
+      archive_(*value);
+    archive_(kf.frame.width);
+    archive_(kf.frame.height);
+    fields(kf.frame.points);
+    fields(kf.frame.lines);
+    fields(kf.cam_from_world);
+    fields(kf.point_landmarks);
+    fields(kf.line_landmarks);
+    fields(kf.line_axes);
+    fields(kf.manhattan);
+    fields(kf.neighbours);
+    archive_(kf.heir);
+    fields(kf.cam_from_heir);
+  }
+
+  void fields_in_common(LandmarkCommon& l) {
+    fields(l.descriptor);
+    fields(l.observations);
+    archive_(l.first_keyframe);
+    archive_(l.visible);
+    archive_(l.found);
+    archive_(l.alive);
+  }
+
+  void fields(PointLandmark<double>& p) {
+    fields_in_common(p);
+    fields(p.position);
+    fields(p.viewing_direction);
+    archive_(p.extent);
+  }
+
+  void fields(LineLandmark<double>& l) {
+    fields_in_common(l);
+    fields(l.line.moment);
+    fields(l.line.direction);
+    fields(l.start);
+    fields(l.end);
+    archive_(l.axis);
+  }
+
+  Archive& archive_;
+};
+
+// Throws Error when ids point outside the map or numbers are not finite: such a map would crash its reader.
+inline void check_map(const Map<double>& map) {
+  const auto demand = [](bool holds) {
+    if (!holds) throw Error("contradicts itself");
+  };
+  const auto inside = [](std::int32_t id, std::size_t size) {
+    return id >= 0 && static_cast<std::size_t>(id) < size;
+  };
+  demand(!map.keyframes.empty() && map.keyframes.front().alive());
+  for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
+    const Keyframe<double>& kf = map.keyframes[k];
+    demand(kf.id == static_cast<KeyframeId>(k));
+    demand(kf.cam_from_world.translation.allFinite() && kf.cam_from_world.rotation.matrix().allFinite());
+    // Heirs come from those that were alive when it went; a ring of them would have no pose.
+    KeyframeId heir = kf.heir;
+    for (std::size_t steps = 0; heir != kNone; ++steps) {
+      demand(inside(heir, map.keyframes.size()) && steps < map.keyframes.size());
+      heir = map.keyframes[map.index(heir)].heir;
+    }
+    demand(kf.point_landmarks.size() == kf.frame.points.size());
+    demand(kf.line_landmarks.size() == kf.frame.lines.size());
+    demand(kf.line_axes.empty() || kf.line_axes.size() == kf.frame.lines.size());
+    for (const std::int8_t axis : kf.line_axes) demand(axis >= kNone && axis < 3);
+    for (const LandmarkId id : kf.point_landmarks) demand(id == kNone || inside(id, map.points.size()));
+    for (const LandmarkId id : kf.line_landmarks) demand(id == kNone || inside(id, map.lines.size()));
+    for (const Neighbour& n : kf.neighbours) demand(inside(n.keyframe, map.keyframes.size()));
+  }
+  const auto check_landmarks = [&](const auto& landmarks, auto features) {
+    for (const auto& landmark : landmarks)
+      for (const Observation& o : landmark.observations)
+        demand(inside(o.keyframe, map.keyframes.size()) &&
+               inside(o.feature, features(map.keyframes[map.index(o.keyframe)])));
+  };
+  check_landmarks(map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
+  check_landmarks(map.lines, [](const Keyframe<double>& kf) { return kf.frame.lines.size(); });
+  for (const auto& p : map.points) demand(p.position.allFinite());
+  for (const auto& l : map.lines) demand(l.line.moment.allFinite() && l.axis >= kNone && l.axis < 3);
+}
+
+}  // namespace sslam::io
