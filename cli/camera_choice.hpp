@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "sslam/io/error.hpp"
@@ -30,8 +31,9 @@ struct CameraChoice {
 
 // wanted: what --camera gave, a file or the name of a built-in calibration; empty: not given. A depth factor
 // that the chosen file leaves out is taken from the published values of the dataset, where there are any.
-// Throws when nothing is known about the camera, or the file is wrong.
-[[nodiscard]] inline CameraChoice choose_camera(const std::string& wanted, const io::Dataset& dataset) {
+// Nothing when nothing is known about the camera. Throws when the file is wrong.
+[[nodiscard]] inline std::optional<CameraChoice> find_camera(const std::string& wanted,
+                                                             const io::Dataset& dataset) {
   const auto known = io::known_camera_for(dataset);
   const auto complete = [&known](CameraChoice choice) {
     if (choice.depth_factor == 0 && known) choice.depth_factor = known->depth_factor;
@@ -48,6 +50,12 @@ struct CameraChoice {
   const std::filesystem::path own = (folder ? dataset.root : dataset.root.parent_path()) / "camera.yaml";
   if (std::filesystem::exists(own, ignored)) return complete(camera_from_file(own));
   if (known) return camera_from_known(*known);
+  return std::nullopt;
+}
+
+// As find_camera, for those who need one: throws when nothing is known about the camera.
+[[nodiscard]] inline CameraChoice choose_camera(const std::string& wanted, const io::Dataset& dataset) {
+  if (auto found = find_camera(wanted, dataset)) return *found;
   throw io::Error(
       dataset.root.string() + ": the camera is not known; pass --camera FILE (YAML with Camera.fx, ...) or " +
       "the name of a built-in calibration (" + io::known_camera_names() + "), or put a camera.yaml there");

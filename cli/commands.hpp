@@ -8,9 +8,10 @@ class App;
 
 namespace sslam::cli {
 
-void add_run_command(CLI::App& app);    // run.cpp
-void add_eval_command(CLI::App& app);   // eval.cpp
-void add_synth_command(CLI::App& app);  // synth.cpp
-void add_demo_command(CLI::App& app);   // demo.cpp
+void add_run_command(CLI::App& app);      // run.cpp
+void add_eval_command(CLI::App& app);     // eval.cpp
+void add_synth_command(CLI::App& app);    // synth.cpp
+void add_normals_command(CLI::App& app);  // normals.cpp
+void add_demo_command(CLI::App& app);     // demo.cpp
 
 }  // namespace sslam::cli

@@ -19,6 +19,7 @@ struct DemoSettings {
   std::string folder = "demo";
   int frames = 300;
   std::uint64_t seed = 1;
+  std::string normals;  // as in RunSettings
 };
 
 void run_demo(const DemoSettings& settings) {
@@ -33,6 +34,7 @@ void run_demo(const DemoSettings& settings) {
   track.dataset = synth.folder;
   track.out = (folder / "run").string();
   track.seed = settings.seed;
+  track.normals = settings.normals;
   run(track);
   std::printf("\nLook at %s (the path seen from above) and open %s in MeshLab or Blender.\n",
               (folder / "run" / "topview.svg").c_str(), (folder / "run" / "map.ply").c_str());
@@ -48,6 +50,7 @@ void add_demo_command(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(10, 100000));
   command->add_option("--seed", s->seed, "Of the room and of the run")->capture_default_str();
+  command->add_option("--normals", s->normals, kNormalsMeaning);
   command->callback([s] { run_demo(*s); });
 }
 

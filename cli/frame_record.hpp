@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sslam/io/trajectory.hpp"
+#include "sslam/opencv/normal_source.hpp"
 #include "sslam/track/result.hpp"
 #include "sslam/track/stage_timer.hpp"
 
@@ -40,8 +41,9 @@ static_assert(StageTimer<WallTimer>);
 
 struct FrameRecord {
   TrackResult<double> result;
-  std::string image;                           // file name, for people
-  int points = 0, lines = 0, normals = 0;      // features found
+  std::string image;                       // file name, for people
+  int points = 0, lines = 0, normals = 0;  // features found
+  NormalStatus normal_status = NormalStatus::kOk;
   std::array<double, kStageCount> stage_ms{};  // of the tracker's stages
   double points_ms = 0, lines_ms = 0, normals_ms = 0;
   double extraction_ms = 0;  // wall clock of the front end

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/frame_stream.hpp"
 
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
-
-#include "cli/image_file.hpp"
 
 namespace sslam::cli {
 
 FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
-    : dataset_(dataset), settings_(std::move(settings)) {
+    : dataset_(dataset), settings_(std::move(settings)), reader_(dataset) {
   frontend_.camera = settings_.camera;
   frontend_.normals = std::move(settings_.normals);
-  if (dataset_.layout == io::Layout::kVideo) video_.open(dataset_.root.string());
   producer_ = std::thread([this] { produce(); });
 }
 
@@ -66,15 +62,14 @@ void FrameStream::produce() {
 }
 
 void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
-  out.image = entry.image.filename().string();
-  if (dataset_.layout == io::Layout::kVideo) out.image += " frame " + std::to_string(entry.index);
+  out.image = reader_.label(entry);
   out.warning.clear();
   ImageInput input;
   input.index = entry.index;
   input.stamp = entry.stamp;
-  input.name = entry.image.stem().string();
+  input.name = reader_.stem(entry);
   std::string why;
-  input.image = decode(entry, why);
+  input.image = reader_.read(entry, why);
   if (!input.image.empty()) read_depth(entry, input, out);
   out.report = frontend_.process(input, out.frame);
   out.usable = out.report.image == ImageStatus::kOk;
@@ -85,16 +80,11 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   }
   if (!settings_.use_points) out.frame.points.clear();
   if (!settings_.use_lines) out.frame.lines.clear();
-  if (out.report.normals != NormalStatus::kOk && out.warning.empty())
+  // A view without planes is no fault of the input: the run's figures count it, and nobody is warned.
+  const bool fine =
+      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
+  if (!fine && out.warning.empty())
     out.warning = entry.image.string() + ": " + name(out.report.normals) + "; lines alone for this frame";
-}
-
-cv::Mat FrameStream::decode(const io::FrameEntry& entry, std::string& why) {
-  if (dataset_.layout != io::Layout::kVideo) return load_image(entry.image, cv::IMREAD_COLOR, why);
-  cv::Mat image;
-  while (next_video_frame_ < entry.index && video_.grab()) ++next_video_frame_;
-  if (next_video_frame_ == entry.index && video_.read(image)) ++next_video_frame_;
-  return image;
 }
 
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {

@@ -7,12 +7,12 @@
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "cli/frame_reader.hpp"
 #include "cli/normal_choice.hpp"
 #include "sslam/io/dataset.hpp"
 #include "sslam/opencv/image_frontend.hpp"
@@ -50,14 +50,12 @@ class FrameStream {
  private:
   void produce();
   void fill(const io::FrameEntry& entry, ExtractedFrame& out);
-  [[nodiscard]] cv::Mat decode(const io::FrameEntry& entry, std::string& why);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
 
   const io::Dataset& dataset_;
   StreamSettings settings_;
   ImageFrontend<NormalChoice> frontend_;
-  cv::VideoCapture video_;
-  std::int64_t next_video_frame_ = 0;
+  FrameReader reader_;
 
   static constexpr std::size_t kAhead = 3;  // frames extracted before they are asked for
   std::mutex mutex_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens what io only lists: image files, checked for a lost end, and the frames of a video.
+// Opens what io only lists: image files, checked for a lost end, and the frames of a video; writes images.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
+#include <vector>
 
 #include "sslam/io/dataset.hpp"
 #include "sslam/io/files.hpp"
@@ -60,6 +61,22 @@ namespace sslam::cli {
   // 7-Scenes marks what was not measured with the largest value.
   if (layout == io::Layout::kSevenScenes && depth.type() == CV_16UC1) depth.setTo(0, depth == 65535);
   return depth;
+}
+
+// zlib's fastest level: for images that are written once and seldom moved.
+[[nodiscard]] inline std::vector<int> fast_png() {
+  return {cv::IMWRITE_PNG_COMPRESSION, 1};
+}
+
+// parameters as cv::imwrite takes them. Throws io::Error when the file cannot be written.
+inline void write_image(const std::filesystem::path& path, const cv::Mat& image,
+                        const std::vector<int>& parameters) {
+  bool written = false;
+  try {
+    written = cv::imwrite(path.string(), image, parameters);
+  } catch (const cv::Exception&) {
+  }
+  if (!written) throw io::Error(path.string() + ": cannot write this image");
 }
 
 // Opens the video once to learn how many frames it has. Throws io::Error when it cannot. Slice after this.

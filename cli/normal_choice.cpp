@@ -35,7 +35,7 @@ NormalChoice choose_normals(const std::string& text) {
   constexpr std::string_view kFiles = "files:", kOnnx = "onnx:";
   if (text == "none") return {NoNormals{}};
   if (text == "depth") return {DepthNormals{}};
-  if (text == "onnx") return {OnnxNormals(shipped_model())};
+  if (text == "onnx") return {OnnxNormals(shipped_model("name one with --normals onnx:FILE"))};
   if (text.starts_with(kFiles)) return {open_files(text.substr(kFiles.size()))};
   if (text.starts_with(kOnnx)) return {OnnxNormals(text.substr(kOnnx.size()))};
   throw io::Error("--normals " + text + ": not known; use none, depth, files:DIR, onnx or onnx:FILE");

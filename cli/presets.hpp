@@ -28,16 +28,20 @@ struct Preset {
   std::string_view meaning;
   bool use_points;
   bool use_lines;
+  bool use_normals;
   RunOutcome (*run)(FrameStream&, const TrackSettings&, Progress&);
 };
 
 inline constexpr std::array<Preset, 6> kPresets{{
-    {"structure", "Manhattan rotation, points and lines, local bundle adjustment", true, true, run_structure},
-    {"paper", "the same without bundle adjustment, as published", true, true, run_paper},
-    {"points", "Manhattan rotation from normals, points alone", true, false, run_structure},
-    {"lines", "Manhattan rotation, lines, and no points but those that start the map", true, true, run_lines},
-    {"features", "no Manhattan world: points and lines, six degrees of freedom", true, true, run_features},
-    {"odometry", "frame to frame, no refinement against the local map", true, true, run_odometry},
+    {"structure", "Manhattan rotation, points and lines, local bundle adjustment", true, true, true,
+     run_structure},
+    {"paper", "the same without bundle adjustment, as published", true, true, true, run_paper},
+    {"points", "Manhattan rotation from normals, points alone", true, false, true, run_structure},
+    {"lines", "Manhattan rotation, lines, and no points but those that start the map", true, true, true,
+     run_lines},
+    {"features", "no Manhattan world: points and lines, six degrees of freedom", true, true, false,
+     run_features},
+    {"odometry", "frame to frame, no refinement against the local map", true, true, true, run_odometry},
 }};
 
 }  // namespace sslam::cli

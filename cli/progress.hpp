@@ -17,11 +17,12 @@ class Progress {
   Progress(std::size_t total, Verbosity verbosity);
 
   void show(const FrameRecord& frame);
-  void finish();  // leaves the last line standing
+  void show(const std::string& detail);  // what stands behind the count and the rate
+  void finish();                         // leaves the last line standing
 
  private:
   using Clock = std::chrono::steady_clock;
-  void print(const FrameRecord& frame) const;
+  void print(const std::string& detail) const;
 
   std::size_t total_;
   std::size_t done_ = 0;

@@ -14,6 +14,7 @@
 #include "cli/messages.hpp"
 #include "cli/presets.hpp"
 #include "cli/run_report.hpp"
+#include "cli/shipped_model.hpp"
 #include "sslam/io/open_dataset.hpp"
 
 namespace sslam::cli {
@@ -73,8 +74,13 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
 
 }  // namespace
 
-void run(const RunSettings& settings) {
+void run(RunSettings settings) {
   const Preset& preset = find_preset(settings.preset);
+  if (settings.normals.empty()) {
+    const DefaultNormals chosen = default_normals(find_shipped_model(), preset.use_normals);
+    settings.normals = chosen.source;
+    if (!chosen.note.empty()) print_note(chosen.note);
+  }
   TrackSettings track;
   track.seed = settings.seed;
   for (const std::string& text : settings.set) track.overrides.push_back(parse_override(text));
@@ -117,11 +123,7 @@ void add_run_command(CLI::App& app) {
       ->required();
   command->add_option("--camera", s->camera,
                       "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names());
-  command
-      ->add_option("--normals", s->normals,
-                   "Surface normals: none (lines alone), depth, files:DIR, onnx (the network that comes with "
-                   "sslam) or onnx:FILE")
-      ->capture_default_str();
+  command->add_option("--normals", s->normals, kNormalsMeaning);
   std::string presets = "What the pipeline is made of:";
   for (const Preset& preset : kPresets)
     presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);

@@ -11,10 +11,16 @@
 
 namespace sslam::cli {
 
+// What --normals takes.
+inline constexpr const char* kNormalsMeaning =
+    "Surface normals: none (lines alone), depth, files:DIR, onnx (the network that comes with sslam) or "
+    "onnx:FILE; default onnx where that network is installed, else none (none also for presets without a "
+    "Manhattan world)";
+
 struct RunSettings {
   std::string dataset;
-  std::string camera;  // file or name; empty: from the dataset
-  std::string normals = "none";
+  std::string camera;   // file or name; empty: from the dataset
+  std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string preset = "structure";
   std::string out = "out";
   io::Slice slice;
@@ -25,6 +31,6 @@ struct RunSettings {
 };
 
 // Tracks the dataset and writes everything into settings.out. Throws io::Error; Stop when interrupted.
-void run(const RunSettings& settings);
+void run(RunSettings settings);
 
 }  // namespace sslam::cli

@@ -88,6 +88,12 @@ Json states_json(const RunOutcome& outcome) {
   return states;
 }
 
+std::size_t count_normals(const RunOutcome& outcome, NormalStatus status) {
+  return static_cast<std::size_t>(
+      std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                    [status](const FrameRecord& frame) { return frame.normal_status == status; }));
+}
+
 Json settings_json(const RunContext& context, const RunOutcome& outcome) {
   const RunSettings& s = context.settings;
   Json parameters;
@@ -141,6 +147,9 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
+  if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
+    std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
+                outcome.frames.size());
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
   std::printf("written to       %s\n", context.settings.out.c_str());
 }
@@ -166,6 +175,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"points", outcome.points.size()},
                   {"lines", outcome.lines.size()},
                   {"states", states_json(outcome)},
+                  {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"times", times_json(outcome)}};
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
   if (live) metrics["trajectory_live"] = evaluation_json(*live);

@@ -3,23 +3,31 @@
 // build.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 
+#include "cli/default_normals.hpp"
 #include "sslam/io/error.hpp"
 
 namespace sslam::cli {
 
-// The manifest of the model. Throws io::Error when it is in neither place.
-[[nodiscard]] inline std::filesystem::path shipped_model() {
+[[nodiscard]] inline std::array<std::filesystem::path, 2> shipped_model_places() {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::filesystem::path installed =
-      program.parent_path() / SSLAM_MODELS_FROM_PROGRAM / "planar_normals.json";
-  for (const std::filesystem::path& place : {installed, std::filesystem::path(SSLAM_MODELS_IN_SOURCE)}) {
-    if (std::filesystem::is_regular_file(place, ignored)) return place;
-  }
-  throw io::Error("--normals onnx: the model that comes with sslam is not installed; looked for " +
-                  installed.string() + "; name one with onnx:FILE");
+  return {program.parent_path() / SSLAM_MODELS_FROM_PROGRAM / "planar_normals.json", SSLAM_MODELS_IN_SOURCE};
+}
+
+// The manifest of the model; nothing when it is in neither place.
+[[nodiscard]] inline std::optional<std::filesystem::path> find_shipped_model() {
+  return first_model(shipped_model_places());
+}
+
+// As above. Throws io::Error when it is in neither place; `instead` says what the user can do.
+[[nodiscard]] inline std::filesystem::path shipped_model(const std::string& instead) {
+  if (const auto found = find_shipped_model()) return *found;
+  throw io::Error("the normal network that comes with sslam is not installed; looked for " +
+                  shipped_model_places()[0].string() + "; " + instead);
 }
 
 }  // namespace sslam::cli

@@ -2,13 +2,14 @@
 #include "cli/synth_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/image_file.hpp"
+#include "cli/normal_files.hpp"
 #include "cli/synth_names.hpp"
 #include "sslam/io/error.hpp"
 #include "sslam/io/output_file.hpp"
@@ -21,18 +22,6 @@ namespace fs = std::filesystem;
 std::string numbered(const char* folder, int number, const std::string& extension) {
   return cv::format("%s/%06d.%s", folder, number, extension.c_str());
 }
-
-void write_image(const fs::path& path, const cv::Mat& image, const std::vector<int>& parameters) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), image, parameters);
-  } catch (const cv::Exception&) {
-  }
-  if (!written) throw io::Error(path.string() + ": cannot write this image");
-}
-
-// zlib's fastest level: the images are written once and seldom moved.
-const std::vector<int> kFastPng{cv::IMWRITE_PNG_COMPRESSION, 1};
 
 template <class Row>
 void write_text(const fs::path& path, const std::string& header, std::size_t rows, const Row& row) {
@@ -90,9 +79,7 @@ void prepare_synth_folder(const SynthSettings& settings) {
   if (settings.depth) io::prepare_output_folder(folder / "depth");
   if (!settings.normals) return;
   io::prepare_output_folder(folder / "normals");
-  io::OutputFile encoding(folder / "normals" / "encoding.txt");
-  encoding.stream() << "r=+x g=+y b=+z\n";  // as write_normals stores them
-  encoding.commit();
+  write_normal_encoding(folder / "normals");
 }
 
 void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std::vector<std::uint8_t>& rgb) {
@@ -101,7 +88,7 @@ void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std
   cv::cvtColor(colour, bgr, cv::COLOR_RGB2BGR);
   const bool png = settings_.image_format == "png";
   write_image(fs::path(settings_.folder) / numbered("rgb", number, settings_.image_format), bgr,
-              png ? kFastPng : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95});
+              png ? fast_png() : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95});
   if (settings_.depth) write_depth(numbered("depth", number, "png"), frame);
   if (settings_.normals) write_normals(numbered("normals", number, "png"), frame);
 }
@@ -114,21 +101,17 @@ void FrameWriter::write_depth(const std::string& name, const synth::RenderedFram
     const float units = inverse > 0.0f ? static_cast<float>(kDepthFactor) / inverse + 0.5f : 0.0f;
     *out++ = units <= kMost ? static_cast<std::uint16_t>(units) : std::uint16_t{0};
   }
-  write_image(fs::path(settings_.folder) / name, depth, kFastPng);
+  write_image(fs::path(settings_.folder) / name, depth, fast_png());
 }
 
 void FrameWriter::write_normals(const std::string& name, const synth::RenderedFrame& frame) {
-  using Pixel = std::array<std::uint8_t, 3>;
-  std::vector<Pixel> encoded;
-  for (const Vec3<float>& n : frame.normals) {
-    const auto level = [](float x) { return static_cast<std::uint8_t>(std::lround(127.5f * (x + 1.0f))); };
-    encoded.push_back({level(n.z()), level(n.y()), level(n.x())});  // OpenCV's order is blue, green, red
-  }
+  std::vector<cv::Vec3b> encoded;
+  for (const Vec3<float>& n : frame.normals) encoded.push_back(encode_normal({n.x(), n.y(), n.z()}));
   cv::Mat image(frame.height, frame.width, CV_8UC3);
-  Pixel* out = image.ptr<Pixel>();
+  cv::Vec3b* out = image.ptr<cv::Vec3b>();
   for (const std::int32_t id : frame.surface)
-    *out++ = id >= 0 ? encoded[static_cast<std::size_t>(id)] : Pixel{};
-  write_image(fs::path(settings_.folder) / name, image, kFastPng);
+    *out++ = id >= 0 ? encoded[static_cast<std::size_t>(id)] : cv::Vec3b();
+  write_image(fs::path(settings_.folder) / name, image, fast_png());
 }
 
 void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole,

@@ -91,6 +91,7 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
     record.points = static_cast<int>(input.frame.points.size());
     record.lines = static_cast<int>(input.frame.lines.size());
     record.normals = static_cast<int>(input.frame.normals.size());
+    record.normal_status = input.report.normals;
     record.points_ms = input.report.points_time * 1e3;
     record.lines_ms = input.report.lines_time * 1e3;
     record.normals_ms = input.report.normals_time * 1e3;

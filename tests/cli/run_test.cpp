@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -40,7 +42,12 @@ struct Copy {
 
   Copy() { fs::copy(room(), folder, fs::copy_options::recursive); }
 
+  // With lines alone, unless the options name a source of normals.
   [[nodiscard]] Outcome run(const std::string& options = "") const {
+    const bool named = options.find("--normals") != std::string::npos;
+    return run_by_default(options + (named ? "" : " --normals none"));
+  }
+  [[nodiscard]] Outcome run_by_default(const std::string& options = "") const {
     return run_program("run " + folder.string() + " --quiet --out " + out.string() + " " + options);
   }
   [[nodiscard]] nlohmann::json metrics() const {
@@ -84,6 +91,65 @@ TEST_CASE("run tracks a rendered room and writes every file") {
   REQUIRE(text_of(copy.out / "trajectory.txt").find("nan") == std::string::npos);
 }
 
+TEST_CASE("run takes the network that comes with sslam unless told otherwise") {
+  const Copy copy;
+  Outcome outcome = copy.run_by_default("--end 20");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const auto metrics = copy.metrics();
+  REQUIRE(metrics["settings"]["normals"] == "onnx");
+  REQUIRE(metrics["warnings"].empty());
+  outcome = copy.run("--end 20 --normals onnx");
+  REQUIRE(outcome.code == 0);
+  REQUIRE(copy.metrics()["settings"]["normals"] == "onnx");
+  outcome = copy.run_by_default("--end 20 --preset features");  // makes no use of normals
+  REQUIRE(outcome.code == 0);
+  REQUIRE(copy.metrics()["settings"]["normals"] == "none");
+  outcome = copy.run("--end 20 --normals none");
+  REQUIRE(outcome.code == 0);
+  REQUIRE(copy.metrics()["settings"]["normals"] == "none");
+}
+
+TEST_CASE("run goes on with lines and features where a network fails") {
+  const Copy copy;
+  // The tiny model of the tests: no normals from green, nothing planar without green.
+  const auto tint = [&](const char* name, double green) {
+    const std::string file = (copy.folder / "rgb" / name).string();
+    cv::Mat image = cv::imread(file);
+    std::vector<cv::Mat> channels;
+    cv::split(image, channels);
+    channels[0] *= 0.4;
+    channels[2] *= 0.15;
+    channels[1].setTo(green);
+    cv::merge(channels, image);
+    REQUIRE(cv::imwrite(file, image, {cv::IMWRITE_JPEG_QUALITY, 100}));
+  };
+  tint("000030.jpg", 255);
+  tint("000031.jpg", 0);
+  const fs::path fixtures = SSLAM_FIXTURES;
+  std::string manifest = text_of(fixtures / "tiny_normals.json");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const auto at = manifest.find(from);
+    REQUIRE(at != std::string::npos);
+    manifest.replace(at, from.size(), to);
+  };
+  replace("tiny_normals.onnx", (fixtures / "tiny_normals.onnx").string());
+  replace("\"name\": \"normal\"", "\"name\": \"frail\"");
+  write(copy.scratch.path() / "frail.json", manifest);
+  const Outcome outcome = copy.run("--normals onnx:" + (copy.scratch.path() / "frail.json").string());
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("no Manhattan evidence in ") != std::string::npos);
+  const auto metrics = copy.metrics();
+  const std::string warnings = metrics["warnings"].dump();
+  REQUIRE(
+      warnings.find("000030.jpg: the network's output is not finite, not of unit length or not in [0, 1]; "
+                    "lines alone for this frame") != std::string::npos);
+  REQUIRE(warnings.find("000031.jpg") == std::string::npos);  // a view without planes is no fault
+  REQUIRE(metrics["frames_without_normal_evidence"] >= 1);
+  REQUIRE(metrics["share_tracked"].get<double>() > 0.5);
+}
+
 TEST_CASE("run gives the same bits again") {
   const Copy copy;
   REQUIRE(copy.run("--normals depth").code == 0);
@@ -96,8 +162,9 @@ TEST_CASE("run gives the same bits again") {
 TEST_CASE("run takes each source of normals and each preset") {
   const Copy copy;
   for (const std::string& options : std::vector<std::string>{
-           "--normals depth", "--normals files:" + (copy.folder / "normals").string(), "--preset paper",
-           "--preset points --normals depth", "--preset lines", "--preset features", "--preset odometry"}) {
+           "--normals depth", "--normals onnx", "--normals files:" + (copy.folder / "normals").string(),
+           "--preset paper", "--preset points --normals depth", "--preset lines", "--preset features",
+           "--preset odometry"}) {
     const Outcome outcome = copy.run(options);
     INFO(options << "\n" << outcome.text);
     REQUIRE(outcome.code == 0);
@@ -209,7 +276,8 @@ TEST_CASE("run refuses a ground truth on another clock") {
 TEST_CASE("run writes what it has when it is interrupted") {
   const Copy copy;
   const Outcome outcome =
-      run_program("run " + copy.folder.string() + " --quiet --out " + copy.out.string(), "timeout -s INT 1 ");
+      run_program("run " + copy.folder.string() + " --quiet --normals none --out " + copy.out.string(),
+                  "timeout -s INT 1 ");
   INFO(outcome.text);
   // A fast machine may be done within the second.
   const bool interrupted =
@@ -226,4 +294,6 @@ TEST_CASE("demo renders, tracks and says where to look") {
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("topview.svg") != std::string::npos);
   REQUIRE(fs::exists(scratch.path() / "demo/run/map.ply"));
+  REQUIRE(text_of(scratch.path() / "demo/run/metrics.json").find("\"normals\": \"onnx\"") !=
+          std::string::npos);
 }

@@ -90,3 +90,13 @@ TEST_CASE("a model whose vectors are not unit is refused", "[normals]") {
       changed(folder, fixtures() / "tiny_normals.json", {{"\"name\": \"normal\"", "\"name\": \"raw\""}}),
       "output.name: 100 % of 'raw' is not finite or not of unit length");
 }
+
+TEST_CASE("a model whose mask or confidence is none is refused", "[normals]") {
+  for (const std::string field : {"mask", "confidence"}) {
+    const TemporaryFolder folder;
+    const std::string output = field == "mask" ? "planar" : field;
+    check_complaint(changed(folder, fixtures() / "tiny_normals.json",
+                            {{"\"" + field + "\": \"" + output + "\"", "\"" + field + "\": \"depth\""}}),
+                    "output." + field + ": ");
+  }
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals by a network: preprocessing, axes, mask, cameras, and the shipped model against a stored answer.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -29,12 +30,19 @@ DenseNormals tiny_infer(const Changes& changes, const cv::Mat& image) {
   return dense;
 }
 
-NormalField fill(OnnxNormals& source, const cv::Mat& image, const Camera<double>& cam) {
+NormalField fill(OnnxNormals& source, const cv::Mat& image, const Camera<double>& cam,
+                 NormalStatus expected = NormalStatus::kOk) {
   ImageInput input;
   input.image = image;
   NormalField field;
-  REQUIRE(source.fill(input, cam, field) == NormalStatus::kOk);
+  field.push_back(0, 0, -1, 1);
+  REQUIRE(source.fill(input, cam, field) == expected);
+  if (expected != NormalStatus::kOk) REQUIRE(field.size() == 0);
   return field;
+}
+
+cv::Mat painted(double blue, double green, double red) {
+  return {48, 64, CV_8UC3, cv::Scalar(blue, green, red)};
 }
 
 }  // namespace
@@ -109,13 +117,12 @@ TEST_CASE("bad images are refused and leave nothing", "[normals]") {
   input.image.convertTo(input.image, CV_16U);
   CHECK(source.fill(input, camera(64, 48, 50), field) == NormalStatus::kWrongType);
   input.image = coloured(20, 15);
-  CHECK(source.fill(input, camera(20, 15, 16), field) == NormalStatus::kWrongSize);
+  CHECK(source.fill(input, camera(20, 15, 16), field) == NormalStatus::kTooSmall);
 }
 
 TEST_CASE("an empty mask is no Manhattan evidence", "[normals]") {
   OnnxNormals source(fixtures() / "tiny_normals.json");
-  const cv::Mat magenta(48, 64, CV_8UC3, cv::Scalar(255, 0, 255));  // no green: not planar
-  CHECK(fill(source, magenta, camera(64, 48, 50)).size() == 0);
+  fill(source, painted(255, 0, 255), camera(64, 48, 50), NormalStatus::kNoEvidence);  // no green: not planar
   CHECK_FALSE(source.report().evidence.enough);
   CHECK(source.report().evidence.planar_share == 0);
 }
@@ -126,10 +133,49 @@ TEST_CASE("normals that contradict each other are no Manhattan evidence", "[norm
   for (int v = 0; v < 48; ++v)
     for (int u = 0; u < 64; ++u)
       chess(v, u) = (u / 4 + v / 4) % 2 == 0 ? cv::Vec3b(0, 255, 255) : cv::Vec3b(255, 255, 0);
-  CHECK(fill(source, chess, camera(64, 48, 50)).size() == 0);
+  fill(source, chess, camera(64, 48, 50), NormalStatus::kNoEvidence);
   CHECK_FALSE(source.report().evidence.enough);
   CHECK(source.report().evidence.planar_share > 0.5);
   CHECK(source.report().evidence.agreement < 0.1);
+}
+
+TEST_CASE("normals that are not finite or not of unit length are bad output", "[normals]") {
+  const TemporaryFolder folder;
+  OnnxNormals source(
+      changed(folder, fixtures() / "tiny_normals.json", {{"\"name\": \"normal\"", "\"name\": \"frail\""}}));
+  const auto cam = camera(64, 48, 50);
+  CHECK(fill(source, painted(128, 128, 128), cam).size() > 0);
+  fill(source, painted(0, 0, 200), cam, NormalStatus::kBadOutput);  // too long
+  CHECK(source.report().bad_share == 1);
+  fill(source, painted(0, 255, 0), cam, NormalStatus::kBadOutput);  // not a number
+  CHECK(source.report().bad_share == 1);
+  // A small spot is dropped, and the rest stands.
+  cv::Mat spot = painted(128, 128, 128);
+  spot(cv::Rect(8, 8, 8, 8)).setTo(cv::Scalar(0, 255, 0));
+  CHECK(fill(source, spot, cam).size() == 16 * 12 - 4);
+  CHECK(near(source.report().bad_share, 4 / 192.0));
+  CHECK(fill(source, painted(128, 128, 128), cam).size() == 16 * 12);
+}
+
+TEST_CASE("a mask that leaves [0, 1] is bad output", "[normals]") {
+  const TemporaryFolder folder;
+  OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
+                             {{"\"mask\": \"planar\"", "\"mask\": \"frail_mask\""}}));
+  const auto cam = camera(64, 48, 50);
+  CHECK(fill(source, painted(128, 128, 128), cam).size() > 0);
+  fill(source, painted(0, 0, 200), cam, NormalStatus::kBadOutput);
+  CHECK(source.report().bad_share == 0);
+  CHECK(source.report().bad_weight_share == 1);
+  fill(source, painted(0, 255, 0), cam, NormalStatus::kBadOutput);
+}
+
+TEST_CASE("every status has a message of its own", "[normals]") {
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(NormalStatus::kNoEvidence); ++i)
+    names.emplace_back(name(static_cast<NormalStatus>(i)));
+  std::sort(names.begin(), names.end());
+  CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+  CHECK(std::find(names.begin(), names.end(), "unknown") == names.end());
 }
 
 TEST_CASE("an image of another camera is brought to the network's camera", "[normals]") {
@@ -170,4 +216,16 @@ TEST_CASE("a depth output becomes normals", "[normals]") {
     REQUIRE(field.size() > 0);
     for (std::size_t i = 0; i < field.size(); ++i) CHECK(near(field.z[i], -1, 1e-3));
   }
+}
+
+TEST_CASE("a depth output that is not finite is bad output, and without planes no evidence", "[normals]") {
+  const TemporaryFolder folder;
+  OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
+                             {{"\"normals\"", "\"depth\""},
+                              {"\"name\": \"normal\"", "\"name\": \"frail_mask\""},
+                              {"\"axes\"", "\"scale\": 0.9 } } #"}}));
+  const auto cam = camera(64, 48, 52);
+  fill(source, painted(0, 255, 0), cam, NormalStatus::kBadOutput);
+  CHECK(source.report().bad_share == 1);
+  fill(source, painted(0, 127, 0), cam, NormalStatus::kNoEvidence);  // too near
 }

@@ -27,8 +27,12 @@ def tiny_model():
     mix = np.array([[0.9, 0.1, -0.3], [-0.2, 0.7, 0.4], [0.1, -0.1, 0.2]], np.float32)[..., None, None]
     planar = np.array([[0.0, 4.0, 0.0]], np.float32)[..., None, None]
     confidence = np.array([[0.0, 0.0, 2.0]], np.float32)[..., None, None]
+    # its root is 1 where red and green are alike, more where there is more red, and not a number in green
+    frail = np.array([[1.0, -1.0, 0.0]], np.float32)[..., None, None]
     constants = [constant("mix", mix), constant("mix_bias", [0.1, -0.1, -1.2]), constant("planar_w", planar),
-                 constant("planar_b", [1.5]), constant("confidence_w", confidence), constant("confidence_b", [1.0])]
+                 constant("planar_b", [1.5]), constant("confidence_w", confidence), constant("confidence_b", [1.0]),
+                 constant("frail_w", frail.repeat(3, 0)), constant("frail_b", [1.0] * 3),
+                 constant("frail_mask_w", frail), constant("frail_mask_b", [1.0])]
     node = helper.make_node
     nodes = [
         node("AveragePool", ["image"], ["pooled"], kernel_shape=[4, 4], strides=[4, 4]),
@@ -40,6 +44,12 @@ def tiny_model():
         node("Expand", ["positive", "shape"], ["divisor"]),
         node("Div", ["mixed", "divisor"], ["normal"]),
         node("Conv", ["pooled", "mix", "mix_bias"], ["raw"], kernel_shape=[1, 1]),  # not of unit length
+        node("Conv", ["pooled", "frail_w", "frail_b"], ["frail_square"], kernel_shape=[1, 1]),
+        node("Sqrt", ["frail_square"], ["frail_length"]),
+        node("Mul", ["normal", "frail_length"], ["frail"]),
+        # a depth or a mask with the same faults
+        node("Conv", ["pooled", "frail_mask_w", "frail_mask_b"], ["frail_mask_square"], kernel_shape=[1, 1]),
+        node("Sqrt", ["frail_mask_square"], ["frail_mask"]),
         node("Conv", ["pooled", "planar_w", "planar_b"], ["planar_logit"], kernel_shape=[1, 1]),
         node("Sigmoid", ["planar_logit"], ["planar"]),
         node("Conv", ["pooled", "confidence_w", "confidence_b"], ["confidence_logit"], kernel_shape=[1, 1]),
@@ -48,7 +58,8 @@ def tiny_model():
     ]
     shape = [1, 3, HEIGHT // 4, WIDTH // 4]
     outputs = [helper.make_tensor_value_info(n, TensorProto.FLOAT, [1, c] + shape[2:])
-               for n, c in (("normal", 3), ("planar", 1), ("confidence", 1), ("raw", 3), ("depth", 1))]
+               for n, c in (("normal", 3), ("planar", 1), ("confidence", 1), ("raw", 3), ("frail", 3),
+                             ("depth", 1), ("frail_mask", 1))]
     image = helper.make_tensor_value_info("image", TensorProto.FLOAT, [1, 3, HEIGHT, WIDTH])
     graph = helper.make_graph(nodes, "tiny_normals", [image], outputs, constants)
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 10)], producer_name="fixtures")

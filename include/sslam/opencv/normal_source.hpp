@@ -18,6 +18,9 @@ enum class NormalStatus : std::uint8_t {
   kWrongSize,   // the shape does not fit the camera's image
   kWrongType,   // number of channels or depth of the pixels
   kFacesAway,   // most normals point away from the camera: the axes are stored in another order or sign
+  kTooSmall,    // the image has too few pixels for the network
+  kBadOutput,   // the network's values are not finite, not of unit length, or not in the range of their kind
+  kNoEvidence,  // nothing is wrong, but too few pixels are planar, or their normals disagree
 };
 
 [[nodiscard]] constexpr const char* name(NormalStatus status) noexcept {
@@ -34,6 +37,12 @@ enum class NormalStatus : std::uint8_t {
       return "most normals point away from the camera (wrong order or sign of the axes?)";
     case NormalStatus::kWrongType:
       return "the normals' input has the wrong pixel type";
+    case NormalStatus::kTooSmall:
+      return "the image is too small for the network of normals";
+    case NormalStatus::kBadOutput:
+      return "the network's output is not finite, not of unit length or not in [0, 1]";
+    case NormalStatus::kNoEvidence:
+      return "too few planar pixels, or normals that disagree: no Manhattan evidence";
   }
   return "unknown";
 }

@@ -36,9 +36,9 @@ class OnnxNetwork {
     if (image.empty()) return NormalStatus::kNoInput;
     if (image.depth() != CV_8U || (image.channels() != 1 && image.channels() != 3 && image.channels() != 4))
       return NormalStatus::kWrongType;
-    if (image.cols != camera.width || image.rows != camera.height || image.cols < min_scale * in.width ||
-        image.rows < min_scale * in.height)
-      return NormalStatus::kWrongSize;
+    if (image.cols != camera.width || image.rows != camera.height) return NormalStatus::kWrongSize;
+    if (image.cols < min_scale * in.width || image.rows < min_scale * in.height)
+      return NormalStatus::kTooSmall;
     view_.set(camera, in);
     to_blob(view_.warp(image));
     net_.setInput(blob_);

@@ -19,8 +19,9 @@
 namespace sslam {
 
 struct OnnxNormalsOptions {
-  double max_norm_error = 0.15;  // of an output vector from unit length: beyond, it is no normal
-  double max_bad_share = 0.05;   // of output vectors that are no normals: beyond, the frame is refused
+  double max_norm_error = 0.15;   // of an output vector from unit length: beyond, it is no normal
+  double max_range_error = 0.01;  // of a mask or a confidence from [0, 1]: beyond, it is neither
+  double max_bad_share = 0.05;    // of the output that is of no use: beyond, the frame is refused
   NormalEvidenceOptions evidence;
   DepthNormalsOptions depth;  // for models whose output is depth
 };
@@ -28,7 +29,8 @@ struct OnnxNormalsOptions {
 // Of the last frame.
 struct OnnxNormalsReport {
   NormalEvidence evidence;
-  double bad_share = 0;  // of the output that is not finite or not unit
+  double bad_share = 0;  // of the normals that are not finite or not unit; of the depth that is not finite
+  double bad_weight_share = 0;  // of mask and confidence, the worse of the two, that is not in [0, 1]
 };
 
 class OnnxNormals {
@@ -41,34 +43,34 @@ class OnnxNormals {
       : network_(read_normal_manifest(manifest_of(file))) {
     if (manifest().kind != NetworkOutput::kNormals) return;
     decode(dense_);
-    if (report_.bad_share > options.max_bad_share)
-      throw NormalModelError(manifest().file.string() + ": output.name: " +
-                             std::to_string(std::lround(100 * report_.bad_share)) + " % of '" +
-                             manifest().output + "' is not finite or not of unit length (see output.range)");
+    demand("output.name", manifest().output, report_.bad_share,
+           "not finite or not of unit length (see output.range)");
+    demand("output.mask", manifest().mask, share_outside(dense_.planar), "not in [0, 1]");
+    demand("output.confidence", manifest().confidence, share_outside(dense_.confidence), "not in [0, 1]");
   }
 
   [[nodiscard]] const NormalManifest& manifest() const noexcept { return network_.manifest(); }
   [[nodiscard]] const OnnxNormalsReport& report() const noexcept { return report_; }
 
-  // "No Manhattan evidence" (report().evidence) is kOk with an empty field: there is nothing wrong with the
-  // frame.
+  // After kBadOutput and kNoEvidence, report() has the figures.
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     field.clear();
     report_ = {};
     if (manifest().kind == NetworkOutput::kNormals) {
       const NormalStatus status = infer(input.image, camera, dense_);
-      if (status == NormalStatus::kOk) report_.evidence = select_normals(dense_, options.evidence, field);
-      return status;
+      if (status != NormalStatus::kOk) return status;
+      report_.evidence = select_normals(dense_, options.evidence, field);
+      return report_.evidence.enough ? NormalStatus::kOk : NormalStatus::kNoEvidence;
     }
     return fill_from_depth(input, camera, field);
   }
 
-  // The whole answer of a model of normals, at the resolution of its output.
+  // The whole answer, at the resolution of the output. For models whose output is normals.
   [[nodiscard]] NormalStatus infer(const cv::Mat& image, const Camera<double>& camera, DenseNormals& dense) {
     const NormalStatus status = network_.run(image, camera);
     if (status != NormalStatus::kOk) return status;
     decode(dense);
-    return report_.bad_share > options.max_bad_share ? NormalStatus::kUnreadable : NormalStatus::kOk;
+    return judge(std::max(report_.bad_share, report_.bad_weight_share));
   }
 
  private:
@@ -80,7 +82,25 @@ class OnnxNormals {
     return file.replace_extension(".json");
   }
 
-  // Fills report_.bad_share. Vectors that turn away from the camera, or show what the camera does not, are
+  [[nodiscard]] NormalStatus judge(double bad_share) const noexcept {
+    return bad_share > options.max_bad_share ? NormalStatus::kBadOutput : NormalStatus::kOk;
+  }
+
+  void demand(const char* field, const std::string& output, double bad_share, const char* what) const {
+    if (judge(bad_share) == NormalStatus::kOk) return;
+    throw NormalModelError(manifest().file.string() + ": " + field + ": " +
+                           std::to_string(std::lround(100 * bad_share)) + " % of '" + output + "' is " +
+                           what);
+  }
+
+  [[nodiscard]] double share_outside(const cv::Mat_<float>& weight) const {
+    std::size_t outside = 0;
+    for (const float w : weight)  // a comparison with NaN is false
+      outside += w >= -options.max_range_error && w <= 1 + options.max_range_error ? 0U : 1U;
+    return static_cast<double>(outside) / static_cast<double>(std::max<std::size_t>(weight.total(), 1));
+  }
+
+  // Fills the report's shares. Vectors that turn away from the camera, or show what the camera does not, are
   // dropped.
   void decode(DenseNormals& dense) {
     const NormalManifest& m = manifest();
@@ -98,10 +118,10 @@ class OnnxNormals {
         for (std::size_t c = 0; c < 3; ++c)
           n[m.axis[c]] = m.sign[c] * ((static_cast<double>(channel[c](v, u)) - low) * to_unit - 1);
         const double norm = n.norm();
-        const bool unit = std::abs(norm - 1) <= options.max_norm_error && std::isfinite(dense.weight(v, u));
+        const bool unit = std::abs(norm - 1) <= options.max_norm_error;
         bad += unit ? 0U : 1U;
-        const bool keep =
-            unit && network_.inside(u, v) && n.dot(dense.pinhole.unproject(Vec2<double>(u, v))) < 0;
+        const bool keep = unit && std::isfinite(dense.weight(v, u)) && network_.inside(u, v) &&
+                          n.dot(dense.pinhole.unproject(Vec2<double>(u, v))) < 0;
         if (keep) n /= norm;
         dense.normal(v, u) =
             keep ? cv::Vec3f(static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z()))
@@ -109,6 +129,7 @@ class OnnxNormals {
       }
     }
     report_.bad_share = static_cast<double>(bad) / static_cast<double>(dense.normal.total());
+    report_.bad_weight_share = std::max(share_outside(dense.planar), share_outside(dense.confidence));
   }
 
   static constexpr int kDepthWidth = 320;  // pixels
@@ -117,6 +138,9 @@ class OnnxNormals {
     const NormalStatus status = network_.run(input.image, camera);
     if (status != NormalStatus::kOk) return status;
     const cv::Mat_<float> output = network_.channel(0);
+    const auto bad = std::count_if(output.begin(), output.end(), [](float x) { return !std::isfinite(x); });
+    report_.bad_share = static_cast<double>(bad) / static_cast<double>(output.total());
+    if (judge(report_.bad_share) != NormalStatus::kOk) return judge(report_.bad_share);
     // Small maps are enlarged: the depth source fits its planes to blocks of pixels.
     const int factor = std::max(1, kDepthWidth / output.cols);
     ImageInput depth;
@@ -132,7 +156,7 @@ class OnnxNormals {
     depth_.options = options.depth;
     const NormalStatus answer = depth_.fill(depth, seen, field);
     report_.evidence.enough = field.size() > 0;
-    return answer;
+    return answer == NormalStatus::kOk && !report_.evidence.enough ? NormalStatus::kNoEvidence : answer;
   }
 
   OnnxNetwork network_;

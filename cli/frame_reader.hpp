@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The images of a dataset in order, whether they are files or the frames of a video.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+
+#include "cli/image_file.hpp"
+#include "sslam/io/dataset.hpp"
+
+namespace sslam::cli {
+
+class FrameReader {
+ public:
+  // The dataset must outlive the reader.
+  explicit FrameReader(const io::Dataset& dataset) : dataset_(dataset) {
+    if (is_video()) video_.open(dataset_.root.string());
+  }
+
+  // 8 bit BGR; entries must come in the order of the dataset. Empty, with the reason in `why`, when it cannot
+  // be decoded.
+  [[nodiscard]] cv::Mat read(const io::FrameEntry& entry, std::string& why) {
+    if (!is_video()) return load_image(entry.image, cv::IMREAD_COLOR, why);
+    cv::Mat image;
+    while (next_ < entry.index && video_.grab()) ++next_;
+    if (next_ == entry.index && video_.read(image)) ++next_;
+    if (image.empty()) why = entry.image.string() + ": cannot decode frame " + std::to_string(entry.index);
+    return image;
+  }
+
+  // For people.
+  [[nodiscard]] std::string label(const io::FrameEntry& entry) const {
+    const std::string file = entry.image.filename().string();
+    return is_video() ? file + " frame " + std::to_string(entry.index) : file;
+  }
+
+  // The name, without folder and extension, of files that belong to the frame, such as its normals.
+  [[nodiscard]] std::string stem(const io::FrameEntry& entry) const {
+    const std::string file = entry.image.stem().string();
+    if (!is_video()) return file;
+    char number[32];
+    std::snprintf(number, sizeof number, "_%06lld", static_cast<long long>(entry.index));
+    return file + number;
+  }
+
+ private:
+  [[nodiscard]] bool is_video() const noexcept { return dataset_.layout == io::Layout::kVideo; }
+
+  const io::Dataset& dataset_;
+  cv::VideoCapture video_;
+  std::int64_t next_ = 0;  // frame that the video gives next
+};
+
+}  // namespace sslam::cli
