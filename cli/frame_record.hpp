@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sslam/io/trajectory.hpp"
+#include "sslam/map/map.hpp"
 #include "sslam/opencv/normal_source.hpp"
 #include "sslam/track/result.hpp"
 #include "sslam/track/stage_timer.hpp"
@@ -72,6 +73,7 @@ struct RunOutcome {
   io::Trajectory keyframes;
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
+  Map<double> map;  // all of it, to go on in
   std::vector<ParameterValue> parameters;
   std::vector<std::string> warnings;
   double wall_seconds = 0;  // of the whole loop

@@ -15,6 +15,7 @@
 #include "cli/presets.hpp"
 #include "cli/run_report.hpp"
 #include "cli/shipped_model.hpp"
+#include "sslam/io/map_file.hpp"
 #include "sslam/io/open_dataset.hpp"
 
 namespace sslam::cli {
@@ -84,6 +85,7 @@ void run(RunSettings settings) {
   TrackSettings track;
   track.seed = settings.seed;
   for (const std::string& text : settings.set) track.overrides.push_back(parse_override(text));
+  if (!settings.map.empty()) track.map = io::load_map(settings.map);
   const io::Dataset dataset = open(settings);
   CameraChoice camera = choose_camera(settings.camera, dataset);
   complete_size(camera.camera, dataset);
@@ -128,6 +130,8 @@ void add_run_command(CLI::App& app) {
   for (const Preset& preset : kPresets)
     presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
   command->add_option("--preset", s->preset, presets)->capture_default_str();
+  command->add_option("--map", s->map,
+                      "Go on in the map of an earlier run, its map.sslam: poses are in that map's world");
   command->add_option("--out", s->out, "Folder for the results")->capture_default_str();
   command->add_option("--start", s->slice.start, "First frame")
       ->capture_default_str()

@@ -22,6 +22,7 @@ struct RunSettings {
   std::string camera;   // file or name; empty: from the dataset
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string preset = "structure";
+  std::string map;  // file of an earlier run to go on in; empty: none
   std::string out = "out";
   io::Slice slice;
   std::vector<std::string> set;  // stage.parameter=value

@@ -12,6 +12,7 @@
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/csv_writer.hpp"
 #include "sslam/io/evaluation.hpp"
+#include "sslam/io/map_file.hpp"
 #include "sslam/io/map_writer.hpp"
 #include "sslam/io/svg_plot.hpp"
 
@@ -103,6 +104,7 @@ Json settings_json(const RunContext& context, const RunOutcome& outcome) {
           {"pinhole", {context.pinhole.fx, context.pinhole.fy, context.pinhole.cx, context.pinhole.cy}},
           {"normals", s.normals},
           {"preset", s.preset},
+          {"map", s.map},
           {"start", s.slice.start},
           {"end", s.slice.end},
           {"stride", s.slice.stride},
@@ -162,6 +164,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   io::write_trajectory(out / "trajectory_live.txt", outcome.live);
   io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
   write_map_file(out / "map.ply", outcome);
+  if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);
   const auto live = evaluate_run(context, outcome.live);

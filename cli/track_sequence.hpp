@@ -52,14 +52,15 @@ void override_parameters(P& pipeline, const std::vector<ParameterValue>& overrid
 }
 
 template <class P>
-void collect_map(const P& pipeline, RunOutcome& outcome) {
+void collect_map(const P& pipeline, std::size_t known_keyframes, RunOutcome& outcome) {
   const auto& map = pipeline.map();
+  outcome.map = map;
   for (const auto& point : map.points)
     if (point.alive) outcome.points.push_back({point.position});
   for (const auto& line : map.lines)
     if (line.alive) outcome.lines.push_back({line.start, line.end, line.axis});
-  for (const auto& keyframe : map.keyframes)
-    if (keyframe.alive())
+  for (std::size_t k = known_keyframes; k < map.keyframes.size(); ++k)
+    if (const auto& keyframe = map.keyframes[k]; keyframe.alive())
       outcome.keyframes.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
   for (const auto& entry : pipeline.trajectory().entries())
     outcome.trajectory.push_back({entry.stamp, pipeline.trajectory().pose(map, entry).inverse()});
@@ -76,6 +77,7 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
   detail::override_parameters(pipeline, settings.overrides);
   if constexpr (requires { pipeline.rotation.seed; }) pipeline.rotation.seed = settings.seed;
   if constexpr (requires { pipeline.initialisation.seed; }) pipeline.initialisation.seed = settings.seed;
+  if (!settings.map.empty()) pipeline.resume(settings.map);
   RunOutcome outcome;
   outcome.parameters = detail::list_parameters(pipeline);
   outcome.frames.reserve(stream.size());
@@ -107,7 +109,7 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
   outcome.wall_seconds = wall.total() * 1e-3;
   outcome.interrupted = Interrupt::asked();
   progress.finish();
-  detail::collect_map(pipeline, outcome);
+  detail::collect_map(pipeline, settings.map.keyframes.size(), outcome);
   return outcome;
 }
 

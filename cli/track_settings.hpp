@@ -12,6 +12,7 @@ namespace sslam::cli {
 struct TrackSettings {
   std::vector<ParameterValue> overrides;  // of --set, in the units of --list-parameters
   std::uint64_t seed = 1;
+  Map<double> map;  // of an earlier run, to go on in; empty: none
 };
 
 }  // namespace sslam::cli

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/program.hpp"
 #include "io/scratch_folder.hpp"
+#include "sslam/core/types.hpp"
 #include "support/catch.hpp"
 
 namespace {
@@ -242,6 +244,35 @@ TEST_CASE("run says when stored normals have another order of axes") {
   const Outcome outcome = copy.run("--normals files:" + (copy.folder / "normals").string());
   INFO(outcome.text);
   REQUIRE(outcome.text.find("most normals point away from the camera") != std::string::npos);
+}
+
+TEST_CASE("run finds its place in the map of an earlier run") {
+  const Copy copy;
+  REQUIRE(copy.run().code == 0);
+  const fs::path map = copy.scratch.path() / "map.sslam";
+  fs::copy(copy.out / "map.sslam", map);
+  const auto first = text_of(copy.out / "trajectory.txt");
+  const Outcome again = copy.run("--start 30 --map " + map.string());
+  INFO(again.text);
+  REQUIRE(again.code == 0);
+  REQUIRE(copy.metrics()["tracked_live"] > 25);
+  REQUIRE(copy.metrics()["settings"]["map"] == map.string());
+  // The same frame, at the same place as in the first run: in the coordinates and the scale of its map.
+  const auto position = [](const std::string& trajectory, const std::string& stamp) {
+    std::istringstream line(trajectory.substr(trajectory.find("\n" + stamp) + 1));
+    sslam::Vec3<double> t;
+    double seconds = 0;
+    line >> seconds >> t.x() >> t.y() >> t.z();
+    return t;
+  };
+  const auto second = text_of(copy.out / "trajectory.txt");
+  const std::string stamp = second.substr(second.rfind('\n', second.size() - 2) + 1, 12);
+  const auto path = (position(first, stamp) - position(first, first.substr(0, 12))).norm();
+  REQUIRE((position(first, stamp) - position(second, stamp)).norm() < 0.03 * path);
+
+  fs::resize_file(map, fs::file_size(map) / 2);
+  require_refused(copy.run("--map " + map.string()), "map.sslam: holds");
+  require_refused(copy.run("--map " + (copy.folder / "rgb.txt").string()), "rgb.txt: is no map");
 }
 
 TEST_CASE("run refuses what it cannot use with one line") {

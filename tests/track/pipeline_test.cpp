@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "simulation.hpp"
@@ -150,6 +151,63 @@ TEST_CASE("A map that does not fit is kept and the frames are lost") {
   const auto results = track_all(second, other);
   REQUIRE(count(results, State::kLost) == 30);
   REQUIRE(second.map().keyframes.size() == first.map().keyframes.size());
+}
+
+TEST_CASE("A standstill is no movement and adds no keyframes") {
+  std::vector<SE3<double>> path = walk(90);
+  for (int k = 0; k < 60; ++k) path.push_back(path[89]);
+  const std::vector<SE3<double>> further = walk(120);
+  path.insert(path.end(), further.begin() + 90, further.end());
+  Simulation simulation(path);
+  presets::Structure<double> pipeline;
+  std::vector<TrackResult<double>> results;
+  std::size_t before = 0, after = 0;
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    Frame<double> frame = simulation.frame(k);
+    results.push_back(pipeline.track(frame));
+    if (k == 92) before = pipeline.map().keyframes.size();
+    if (k == 149) after = pipeline.map().keyframes.size();
+  }
+  REQUIRE(count(results, State::kLost) == 0);
+  REQUIRE(after <= before + 1);
+  for (std::size_t k = 100; k < 150; ++k) {
+    const Vec3<double> step =
+        results[k].cam_from_world.inverse().translation - results[100].cam_from_world.inverse().translation;
+    REQUIRE(step.norm() < 0.01);
+  }
+  REQUIRE(position_error(pipeline, simulation) < 0.02);
+}
+
+TEST_CASE("A turn in place in the middle of a walk moves nothing") {
+  std::vector<SE3<double>> path = walk(90);
+  const SE3<double> stop = path.back();
+  for (int k = 1; k <= 60; ++k)
+    path.push_back(SE3<double>{SO3<double>::exp({0, 0.4 * std::sin(k * std::numbers::pi / 30), 0}), {}} *
+                   stop);
+  Simulation simulation(path);
+  presets::Structure<double> pipeline;
+  const auto results = track_all(pipeline, simulation);
+  REQUIRE(count(results, State::kLost) == 0);
+  for (std::size_t k = 90; k < path.size(); ++k) {
+    const Vec3<double> step =
+        results[k].cam_from_world.inverse().translation - results[89].cam_from_world.inverse().translation;
+    REQUIRE(step.norm() < 0.03);
+  }
+}
+
+TEST_CASE("A jump to a place that the map does not know is a loss and the way back is found") {
+  std::vector<SE3<double>> path = walk(90);
+  for (int k = 0; k < 20; ++k)  // looks the other way
+    path.push_back(SE3<double>{SO3<double>::exp({0, std::numbers::pi, 0}), {}} * path[60]);
+  for (std::size_t k = 70; k < 90; ++k) path.push_back(path[k]);
+  Simulation simulation(path);
+  presets::Structure<double> pipeline;
+  const auto results = track_all(pipeline, simulation);
+  for (std::size_t k = 90; k < 110; ++k) REQUIRE(results[k].state == State::kLost);
+  REQUIRE(std::any_of(results.begin() + 110, results.begin() + 115,
+                      [](const auto& r) { return r.reason == Reason::kRelocalised; }));
+  REQUIRE(results.back().has_pose());
+  REQUIRE(position_error(pipeline, simulation) < 0.02);
 }
 
 TEST_CASE("A frame without features never becomes a map") {
