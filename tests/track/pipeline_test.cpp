@@ -182,7 +182,8 @@ TEST_CASE("A turn in place in the middle of a walk moves nothing") {
   std::vector<SE3<double>> path = walk(90);
   const SE3<double> stop = path.back();
   for (int k = 1; k <= 60; ++k)
-    path.push_back(SE3<double>{SO3<double>::exp({0, 0.4 * std::sin(k * std::numbers::pi / 30), 0}), {}} *
+    path.push_back(SE3<double>{SO3<double>::exp({0, 0.4 * std::sin(k * std::numbers::pi / 30), 0}),
+                               Vec3<double>::Zero()} *
                    stop);
   Simulation simulation(path);
   presets::Structure<double> pipeline;
@@ -198,7 +199,7 @@ TEST_CASE("A turn in place in the middle of a walk moves nothing") {
 TEST_CASE("A jump to a place that the map does not know is a loss and the way back is found") {
   std::vector<SE3<double>> path = walk(90);
   for (int k = 0; k < 20; ++k)  // looks the other way
-    path.push_back(SE3<double>{SO3<double>::exp({0, std::numbers::pi, 0}), {}} * path[60]);
+    path.push_back(SE3<double>{SO3<double>::exp({0, std::numbers::pi, 0}), Vec3<double>::Zero()} * path[60]);
   for (std::size_t k = 70; k < 90; ++k) path.push_back(path[k]);
   Simulation simulation(path);
   presets::Structure<double> pipeline;
