@@ -71,11 +71,11 @@ struct DronePose {
   const Altimeter* altimeter = nullptr;
 
   Evaluated<double> operator()(const SE3<double>& cam_from_world,
-                               NormalEquations<double, 6>* equations) const noexcept {
+                               NormalEquations<double, 6>& equations) const noexcept {
     constexpr double kWeight = 1 / (0.3 * 0.3);  // pixels are read as whole numbers
     Evaluated<double> sum;
     const auto add = [&](const Mat<double, 1, 6>& j, double error, double weight) {
-      equations->add(j, error, weight);
+      equations.add(j, error, weight);
       sum.cost += weight * error * error;
     };
     for (const Sighting& s : sightings) {
