@@ -1,13 +1,15 @@
 # Installs the library as a package with components: find_package(sslam COMPONENTS core opencv ceres io).
-# Each component has an export of its own, so that the core never looks for OpenCV or Ceres.
+# Each component has an export of its own, so that the core never looks for OpenCV or Ceres. What a developer needs is
+# the install component `dev`, the command line is `cli`.
 include(CMakePackageConfigHelpers)
-set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sslam")
+set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/sslam")
 
 foreach(component core io opencv ceres)
   if(TARGET sslam_${component})
     install(TARGETS sslam_${component} EXPORT sslam_${component} FILE_SET HEADERS
-            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-    install(EXPORT sslam_${component} FILE "sslam-${component}.cmake" NAMESPACE sslam:: DESTINATION "${package_dir}")
+            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
+    install(EXPORT sslam_${component} FILE "sslam-${component}.cmake" NAMESPACE sslam:: DESTINATION "${package_dir}"
+            COMPONENT dev)
   endif()
 endforeach()
 
@@ -16,4 +18,9 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/sslamConfig.cmake.in"
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/sslamConfigVersion.cmake" COMPATIBILITY SameMinorVersion
                                  ARCH_INDEPENDENT)
 install(FILES "${PROJECT_BINARY_DIR}/sslamConfig.cmake" "${PROJECT_BINARY_DIR}/sslamConfigVersion.cmake"
-        DESTINATION "${package_dir}")
+        DESTINATION "${package_dir}" COMPONENT dev)
+
+# For those who build without CMake. The prefix is found from where the file lies, so the tree may be moved.
+cmake_path(APPEND pc_includedir "\${prefix}" "${CMAKE_INSTALL_INCLUDEDIR}")
+configure_file("${CMAKE_CURRENT_LIST_DIR}/sslam.pc.in" "${PROJECT_BINARY_DIR}/sslam.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/sslam.pc" DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig" COMPONENT dev)

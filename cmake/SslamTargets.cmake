@@ -1,7 +1,8 @@
 # Helpers that give every sslam target the same shape.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
-# sslam_add_interface(NAME FLOORS folder... LINKS target...): a header-only target sslam::NAME.
+# sslam_add_interface(NAME FLOORS folder... LINKS target...): a header-only target sslam::NAME, with the umbrella header
+# sslam/NAME.hpp where there is one.
 function(sslam_add_interface name)
   cmake_parse_arguments(ARG "" "" "FLOORS;LINKS" ${ARGN})
   add_library(sslam_${name} INTERFACE)
@@ -14,6 +15,9 @@ function(sslam_add_interface name)
     file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/sslam/${floor}/*.hpp")
     list(APPEND headers ${found})
   endforeach()
+  if(EXISTS "${PROJECT_SOURCE_DIR}/include/sslam/${name}.hpp")
+    list(APPEND headers "${PROJECT_SOURCE_DIR}/include/sslam/${name}.hpp")
+  endif()
   if(headers)
     target_sources(sslam_${name} INTERFACE FILE_SET HEADERS
                    BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${headers})

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All of the core first: no kernel may depend on which other headers a user has included before.
+#include "sslam/core.hpp"
+
 #include "alloc/heap_checks.hpp"
 
 TEST_CASE("No kernel reaches for the heap in float") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/ceres/local_bundle_adjustment.hpp"
+#include "sslam/ceres.hpp"
 
 int main() {
   sslam::Map<double> map;

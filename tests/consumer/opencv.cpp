@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/opencv/image_frontend.hpp"
+#include "sslam/opencv.hpp"
 
 int main() {
   sslam::ImageFrontend<> frontend;

@@ -2,7 +2,9 @@
 // A match of two bearings and its epipolar error in standard deviations (Sampson), with derivatives.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sslam/core/types.hpp"
 
@@ -19,6 +21,11 @@ struct BearingMatch {
 template <Scalar S>
 [[nodiscard]] bool is_finite(const BearingMatch<S>& match) noexcept {
   return std::isfinite(match.ray0.sum() + match.ray1.sum() + match.sigma) && match.sigma > 0;
+}
+
+template <Scalar S>
+[[nodiscard]] bool all_finite(std::span<const BearingMatch<S>> matches) noexcept {
+  return std::all_of(matches.begin(), matches.end(), [](const auto& match) { return is_finite(match); });
 }
 
 // Residual and derivatives with respect to t_10 (as a free vector) and to a left perturbation of R_10.

@@ -93,8 +93,7 @@ template <Scalar S>
     return summary;
   };
   const S length = t_10.norm();
-  if (!std::isfinite(length) || !R_10.matrix().allFinite() ||
-      !std::all_of(matches.begin(), matches.end(), is_finite<S>))
+  if (!std::isfinite(length) || !R_10.matrix().allFinite() || !all_finite(matches))
     return refuse(Status::kNotFinite);
   if (static_cast<int>(matches.size()) < std::max(options.min_inliers, 5)) return summary;
   if (!(length > 0)) return refuse(Status::kDegenerate);

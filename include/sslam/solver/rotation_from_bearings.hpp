@@ -129,7 +129,7 @@ template <Scalar S>
     result.status = status;
     return result;
   };
-  if (!std::all_of(matches.begin(), matches.end(), is_finite<S>)) return refuse(Status::kNotFinite);
+  if (!all_finite(matches)) return refuse(Status::kNotFinite);
   if (static_cast<int>(matches.size()) < std::max(options.min_inliers, 2)) return result;
 
   Random random(seed);

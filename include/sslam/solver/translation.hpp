@@ -127,8 +127,7 @@ template <Scalar S>
     return estimate;
   };
   const Mat3<S> R = R_10.matrix();
-  if (!R.allFinite() || !std::all_of(matches.begin(), matches.end(), is_finite<S>))
-    return refuse(Status::kNotFinite);
+  if (!R.allFinite() || !all_finite(matches)) return refuse(Status::kNotFinite);
   if (static_cast<int>(matches.size()) < std::max(options.min_inliers, 2)) return estimate;
 
   Random random(seed);

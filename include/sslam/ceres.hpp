@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything of the component ceres: bundle adjustment, local and global.
+#pragma once
+
+#include "sslam/ceres/bundle_solver.hpp"
+#include "sslam/ceres/cost_functions.hpp"
+#include "sslam/ceres/global_bundle_adjustment.hpp"
+#include "sslam/ceres/local_bundle_adjustment.hpp"
+#include "sslam/ceres/manifolds.hpp"
