@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All of the core first: no kernel may depend on which other headers a user has included before.
+#include "alloc/heap_watch.hpp"
+// All of the core before the kernels' own headers: none may depend on what a user has included before.
 #include "sslam/core.hpp"
 
 #include "alloc/heap_checks.hpp"
