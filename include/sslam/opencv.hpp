@@ -20,6 +20,7 @@
 #include "sslam/opencv/normal_evidence.hpp"
 #include "sslam/opencv/normal_grid.hpp"
 #include "sslam/opencv/normal_manifest.hpp"
+#include "sslam/opencv/normal_picture.hpp"
 #include "sslam/opencv/normal_source.hpp"
 #include "sslam/opencv/onnx_network.hpp"
 #include "sslam/opencv/onnx_normals.hpp"
