@@ -23,7 +23,7 @@ struct Gyroscope {
     return {.axes_seen = 0, .trusted = true};
   }
   [[nodiscard]] std::optional<SO3<double>> world_from_manhattan() const { return std::nullopt; }  // has none
-  void reset(const std::optional<SO3<double>>& = std::nullopt) {}
+  void reset(const std::optional<SO3<double>>&) {}
 };
 static_assert(RotationStage<Gyroscope, double>);
 

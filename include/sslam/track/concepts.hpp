@@ -18,7 +18,6 @@ concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& 
                                  const std::optional<SO3<S>>& known) {
   { stage.rotate(frame, predicted, mapped) } -> std::same_as<RotationAnswer<S>>;
   { stage.world_from_manhattan() } -> std::convertible_to<std::optional<SO3<S>>>;
-  stage.reset();
   stage.reset(known);
 };
 

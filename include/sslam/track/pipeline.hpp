@@ -56,9 +56,7 @@ class Pipeline {
 
   // Goes on in a map that was made earlier: the next frames are lost until one is recognised.
   void resume(Map<S> map) {
-    start_over();
-    map_ = std::move(map);
-    rotation.reset(map_.world_from_manhattan);
+    start_over(std::move(map));
     reference_ = 0;  // never removed
     lost_frames_ = 1;
     keep_map_ = true;
@@ -204,13 +202,13 @@ class Pipeline {
       ++unfit_frames_;
     if (unfit_frames_ < give_up_after || keep_map_ || static_cast<int>(map_.keyframes.size()) >= young_map)
       return;
-    start_over();
+    start_over({});
   }
 
-  void start_over() {
-    map_ = Map<S>();
+  void start_over(Map<S> map) {
+    map_ = std::move(map);
     log_.clear();
-    rotation.reset();
+    rotation.reset(map_.world_from_manhattan);
     initialisation.reset();
     mapping.reset();
     motion_.stop();

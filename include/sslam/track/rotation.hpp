@@ -51,8 +51,8 @@ class ManhattanRotation {
   [[nodiscard]] const std::optional<SO3<S>>& world_from_manhattan() const noexcept {
     return world_from_manhattan_;
   }
-  // Forgets the Manhattan frame, or goes on with one that is known.
-  void reset(const std::optional<SO3<S>>& world_from_manhattan = std::nullopt) {
+  // Goes on with the Manhattan frame of a map, or with none.
+  void reset(const std::optional<SO3<S>>& world_from_manhattan) {
     world_from_manhattan_ = world_from_manhattan;
     candidate_.reset();
   }
@@ -107,7 +107,7 @@ template <Scalar S>
 struct NoRotation {
   RotationAnswer<S> rotate(TrackedFrame<S>&, const SO3<S>&, bool) { return {}; }
   [[nodiscard]] std::optional<SO3<S>> world_from_manhattan() const noexcept { return std::nullopt; }
-  void reset(const std::optional<SO3<S>>& = std::nullopt) {}
+  void reset(const std::optional<SO3<S>>&) {}
 };
 
 }  // namespace sslam
