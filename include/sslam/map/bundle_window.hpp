@@ -3,12 +3,12 @@
 // them.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <vector>
 
 #include "sslam/map/map.hpp"
 #include "sslam/solver/bundle_graph.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 
 namespace sslam {
 
@@ -113,9 +113,11 @@ class BundleWindow {
   [[nodiscard]] static std::optional<RotationTie<S>> make_tie(const RotationObservation<S>& seen,
                                                               const BundleWindowOptions<S>& options) {
     const S floor = options.rotation_floor * options.rotation_floor;
-    const Eigen::LLT<Mat3<S>> llt(seen.covariance + floor * Mat3<S>::Identity());
-    if (llt.info() != Eigen::Success || !seen.covariance.allFinite()) return std::nullopt;
-    return RotationTie<S>{seen.cam_from_world, llt.matrixL().solve(Mat3<S>::Identity())};
+    Mat3<S> root;
+    if (!seen.covariance.allFinite() ||
+        !inverse_root<S, 3>(seen.covariance + floor * Mat3<S>::Identity(), root))
+      return std::nullopt;
+    return RotationTie<S>{seen.cam_from_world, root};
   }
 
   void add_points(const Map<S>& map) {

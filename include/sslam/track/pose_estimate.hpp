@@ -2,13 +2,12 @@
 // What a tracking stage answers, and what a pose must show before it is believed.
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "sslam/core/status.hpp"
+#include "sslam/solver/positive_inverse.hpp"
 #include "sslam/track/correspondences.hpp"
 #include "sslam/track/result.hpp"
 
@@ -44,9 +43,8 @@ template <Scalar S, int D>
   estimate.reason = Reason::kNoConsensus;
   if (static_cast<S>(inliers) < acceptance.min_inlier_share * static_cast<S>(matches.size())) return estimate;
   estimate.reason = Reason::kUncertainPose;
-  const Eigen::LLT<Mat<S, D, D>> factor(information);
-  if (factor.info() != Eigen::Success) return estimate;
-  const Mat<S, D, D> covariance = factor.solve(Mat<S, D, D>::Identity());
+  Mat<S, D, D> covariance;
+  if (!inverse_of<S, D>(information, covariance)) return estimate;
   const auto spread = [&](int at) {
     const Mat3<S> block = covariance.template block<3, 3>(at, at);
     const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(block, Eigen::EigenvaluesOnly);
