@@ -5,13 +5,13 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
 
+#include "sslam/io/map_check.hpp"
 #include "sslam/io/map_fields.hpp"
 #include "sslam/io/output_file.hpp"
 

@@ -13,10 +13,9 @@ namespace sslam {
 template <Scalar S>
 class KeyframeCulling {
  public:
-  S redundant_share =
-      S(0.9);          // of a keyframe's landmarks, seen well elsewhere: from here on it goes; over 1: never
-  int min_others = 3;  // other keyframes that must see a landmark, points from as near
-  int spared = 5;      // newest keyframes, which still wait for their neighbours
+  S redundant_share = S(0.9);  // of a keyframe's landmarks, seen well elsewhere: it goes; over 1: never
+  int min_others = 3;          // other keyframes that must see a landmark, points from as near
+  int spared = 5;              // newest keyframes, which still wait for their neighbours
 
   // Removes redundant keyframes among the neighbours of `now`. The first map's two are never removed: they
   // hold place and scale.

@@ -5,9 +5,9 @@
 
 #include <concepts>
 
-#include "sslam/track/culling.hpp"
 #include "sslam/track/fusion.hpp"
 #include "sslam/track/keyframe_culling.hpp"
+#include "sslam/track/landmark_culling.hpp"
 #include "sslam/track/new_landmarks.hpp"
 
 namespace sslam {
