@@ -53,14 +53,6 @@ struct FrameRecord {
   [[nodiscard]] double frame_ms() const noexcept { return extraction_ms + tracking_ms; }
 };
 
-struct MapPoint {
-  Vec3<double> position;
-};
-struct MapLine {
-  Vec3<double> start, end;
-  int axis = -1;  // Manhattan axis, or -1
-};
-
 struct ParameterValue {
   std::string name;
   double value = 0;
@@ -70,10 +62,8 @@ struct RunOutcome {
   std::vector<FrameRecord> frames;
   io::Trajectory trajectory;  // by the keyframes' final poses, world from camera
   io::Trajectory live;        // as reported when each frame was tracked
-  io::Trajectory keyframes;
-  std::vector<MapPoint> points;
-  std::vector<MapLine> lines;
-  Map<double> map;  // all of it, to go on in
+  io::Trajectory keyframes;   // those that this run added to the map
+  Map<double> map;
   std::vector<ParameterValue> parameters;
   std::vector<std::string> warnings;
   double wall_seconds = 0;  // of the whole loop

@@ -47,12 +47,20 @@ void write_map_file(const fs::path& path, const RunOutcome& outcome) {
   constexpr std::array<io::Colour, 4> kAxisColours{
       {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none
   std::vector<io::MapPoint> points;
-  for (const MapPoint& point : outcome.points) points.push_back({point.position});
+  for (const auto& point : outcome.map.points)
+    if (point.alive) points.push_back({point.position});
   std::vector<io::MapLine> lines;
-  for (const MapLine& line : outcome.lines)
-    lines.push_back(
-        {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
+  for (const auto& line : outcome.map.lines)
+    if (line.alive)
+      lines.push_back(
+          {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
   io::write_map(path, points, lines);
+}
+
+template <class Landmarks>
+std::size_t count_alive(const Landmarks& landmarks) {
+  return static_cast<std::size_t>(
+      std::count_if(landmarks.begin(), landmarks.end(), [](const auto& landmark) { return landmark.alive; }));
 }
 
 // The p-quantile by nearest rank; 0 of nothing.
@@ -134,7 +142,8 @@ void write_top_view_file(const fs::path& path, const RunContext& context, const 
                                          truth_from_estimate, context.dataset.frames.front().stamp,
                                          context.dataset.frames.back().stamp, context.settings.dataset);
   if (!evaluation) view.unit = "map units";
-  for (const MapPoint& point : outcome.points) view.points.push_back(truth_from_estimate * point.position);
+  for (const auto& point : outcome.map.points)
+    if (point.alive) view.points.push_back(truth_from_estimate * point.position);
   io::write_top_view(path, view);
 }
 
@@ -145,7 +154,7 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   std::printf("tracked          %zu of %zu frames (%.1f %%), %zu keyframes, %zu points, %zu lines\n",
               outcome.trajectory.size(), total,
               100.0 * static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total),
-              outcome.keyframes.size(), outcome.points.size(), outcome.lines.size());
+              outcome.keyframes.size(), count_alive(outcome.map.points), count_alive(outcome.map.lines));
   std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
@@ -175,8 +184,8 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                                         static_cast<double>(context.dataset.frames.size())},
                   {"interrupted", outcome.interrupted},
                   {"keyframes", outcome.keyframes.size()},
-                  {"points", outcome.points.size()},
-                  {"lines", outcome.lines.size()},
+                  {"points", count_alive(outcome.map.points)},
+                  {"lines", count_alive(outcome.map.lines)},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"times", times_json(outcome)}};

@@ -55,10 +55,6 @@ template <class P>
 void collect_map(const P& pipeline, std::size_t known_keyframes, RunOutcome& outcome) {
   const auto& map = pipeline.map();
   outcome.map = map;
-  for (const auto& point : map.points)
-    if (point.alive) outcome.points.push_back({point.position});
-  for (const auto& line : map.lines)
-    if (line.alive) outcome.lines.push_back({line.start, line.end, line.axis});
   for (std::size_t k = known_keyframes; k < map.keyframes.size(); ++k)
     if (const auto& keyframe = map.keyframes[k]; keyframe.alive())
       outcome.keyframes.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
