@@ -1,12 +1,9 @@
 # Real recordings, where they are at hand: the accuracy that the project promises for each, with one set of defaults.
-set(SSLAM_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH "Folder of the recordings that the tests run on")
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
-
 function(sslam_sequence_test recording normals share ate)
   set(name "sequence: ${recording} with normals ${normals}")
   add_test(NAME "${name}"
-           COMMAND Python3::Interpreter ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/check_sequence.py $<TARGET_FILE:sslam>
-                   ${SSLAM_DATA}/${recording} ${normals} ${share} ${ate})
+           COMMAND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/check_sequence.py $<TARGET_FILE:sslam> ${recording} ${normals}
+                   ${share} ${ate})
   set_tests_properties("${name}" PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()
 
