@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "io/scratch_folder.hpp"
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 

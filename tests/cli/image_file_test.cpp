@@ -7,8 +7,8 @@
 
 #include "cli/camera_choice.hpp"
 #include "io/errors.hpp"
-#include "io/scratch_folder.hpp"
 #include "sslam/core/random.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using testing::contains;

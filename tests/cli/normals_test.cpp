@@ -10,9 +10,9 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "io/scratch_folder.hpp"
 #include "sslam/opencv/normal_picture.hpp"
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using sslam::testing::Outcome;

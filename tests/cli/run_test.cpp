@@ -2,7 +2,6 @@
 // `sslam run` on a rendered room: what it writes, and what bad input gets.
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -11,9 +10,9 @@
 #include <vector>
 
 #include "cli/program.hpp"
-#include "io/scratch_folder.hpp"
 #include "sslam/core/types.hpp"
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace {
 
@@ -21,6 +20,7 @@ namespace fs = std::filesystem;
 using sslam::testing::Outcome;
 using sslam::testing::run_program;
 using sslam::testing::ScratchFolder;
+using sslam::testing::text_of;
 
 constexpr int kFrames = 60;
 
@@ -57,11 +57,6 @@ struct Copy {
     return nlohmann::json::parse(file);
   }
 };
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `sslam synth` writes. Runs the program itself: SSLAM_COMMAND is its path. Its complaints are tested in
 // synth_tests.cmake.
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -19,10 +16,12 @@
 #include "sslam/io/trajectory.hpp"
 #include "sslam/opencv/camera_file.hpp"
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using sslam::testing::Outcome;
 using sslam::testing::run_program;
+using sslam::testing::text_of;
 namespace fs = std::filesystem;
 
 namespace {
@@ -31,32 +30,18 @@ Outcome synth(const std::string& arguments) {
   return run_program("synth " + arguments);
 }
 
-// An empty folder of its own, gone at the end.
-struct Scratch {
-  fs::path path =
-      fs::temp_directory_path() / ("sslam_synth_" + std::to_string(getpid()) + "_" + std::to_string(next++));
-  Scratch() { fs::create_directories(path); }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path / name).string(); }
-  inline static int next = 0;
+struct Scratch : testing::ScratchFolder {
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path() / name).string(); }
 };
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 bool same_images(const std::string& a, const std::string& b, int frames) {
   for (int i = 0; i < frames; ++i) {
     for (const char* pattern : {"rgb/%06d.jpg", "depth/%06d.png", "normals/%06d.png"}) {
-      const std::string name = cv::format(pattern, i), content = bytes_of(fs::path(a) / name);
-      if (content.empty() || content != bytes_of(fs::path(b) / name)) return false;
+      const std::string name = cv::format(pattern, i), content = text_of(fs::path(a) / name);
+      if (content.empty() || content != text_of(fs::path(b) / name)) return false;
     }
   }
-  return bytes_of(fs::path(a) / "groundtruth.txt") == bytes_of(fs::path(b) / "groundtruth.txt");
+  return text_of(fs::path(a) / "groundtruth.txt") == text_of(fs::path(b) / "groundtruth.txt");
 }
 
 const std::string kSmall = " --quiet --size 160x120 ";

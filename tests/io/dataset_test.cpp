@@ -4,10 +4,10 @@
 #include <string>
 
 #include "errors.hpp"
-#include "scratch_folder.hpp"
 #include "shared_data.hpp"
 #include "sslam/io/known_cameras.hpp"
 #include "sslam/io/open_dataset.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using testing::contains;

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "errors.hpp"
-#include "scratch_folder.hpp"
 #include "support/catch.hpp"
 #include "support/map_scene.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include "sslam/io/output_file.hpp"
 
 #include "errors.hpp"
-#include "scratch_folder.hpp"
 #include "sslam/io/csv_writer.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using testing::contains;

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "errors.hpp"
-#include "scratch_folder.hpp"
 #include "sslam/io/files.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 

@@ -2,8 +2,8 @@
 #include "sslam/io/trajectory.hpp"
 
 #include "errors.hpp"
-#include "scratch_folder.hpp"
 #include "shared_data.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using testing::contains;

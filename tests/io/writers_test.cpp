@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "errors.hpp"
-#include "scratch_folder.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/map_writer.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 using testing::contains;

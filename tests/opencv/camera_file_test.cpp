@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/opencv/camera_file.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
 
@@ -16,17 +14,11 @@ namespace {
 // A camera file for one test.
 class Yaml {
  public:
-  explicit Yaml(const std::string& lines)
-      : path_(std::filesystem::temp_directory_path() /
-              ("sslam_camera_" + std::to_string(getpid()) + ".yaml")) {
-    std::ofstream(path_) << "%YAML:1.0\n---\n" << lines;
-  }
-  ~Yaml() { std::filesystem::remove(path_); }
-  Yaml(const Yaml&) = delete;
-  Yaml& operator=(const Yaml&) = delete;
+  explicit Yaml(const std::string& lines) : path_(folder_.write("camera.yaml", "%YAML:1.0\n---\n" + lines)) {}
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  testing::ScratchFolder folder_;
   std::filesystem::path path_;
 };
 

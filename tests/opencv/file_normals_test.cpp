@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/opencv/file_normals.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace sslam;
-namespace fs = std::filesystem;
+using sslam::testing::ScratchFolder;
 
 namespace {
-
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("sslam_file_normals_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 Camera<double> camera() {
   Camera<double> c;
@@ -71,7 +54,7 @@ void check_halves(const NormalField& field, double tolerance) {
 }  // namespace
 
 TEST_CASE("stored normals come back") {
-  const Folder folder;
+  const ScratchFolder folder;
   FileNormals source;
   source.options.folder = folder.path();
   ImageInput input;
@@ -101,7 +84,7 @@ TEST_CASE("stored normals come back") {
 }
 
 TEST_CASE("what cannot be used is named and leaves no normals") {
-  const Folder folder;
+  const ScratchFolder folder;
   FileNormals source;
   source.options.folder = folder.path();
   ImageInput input;
@@ -110,7 +93,7 @@ TEST_CASE("what cannot be used is named and leaves no normals") {
   input.name = "absent";
   CHECK(source.fill(input, camera(), field) == NormalStatus::kNoInput);
   CHECK(field.size() == 0);
-  std::ofstream(folder.path() / "broken.png") << "no image";
+  folder.write("broken.png", "no image");
   input.name = "broken";
   CHECK(source.fill(input, camera(), field) == NormalStatus::kUnreadable);
   CHECK(source.decode(cv::Mat(192, 200, CV_8UC3, cv::Scalar(1)), camera(), field) ==

@@ -3,11 +3,9 @@
 // every corner.
 #pragma once
 
-#include <unistd.h>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "sslam/opencv/onnx_normals.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace sslam::test {
 
@@ -24,31 +23,10 @@ inline std::filesystem::path fixtures() {
   return std::filesystem::absolute(__FILE__).parent_path() / "fixtures";
 }
 
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-// A folder of its own, gone with the object.
-struct TemporaryFolder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() /
-                               ("sslam_model_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-  TemporaryFolder() { std::filesystem::create_directories(path); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-
- private:
-  static inline int count = 0;
-};
-
 // `manifest` with pieces of its text replaced, beside a copy of nothing: the model stays where it is.
-inline std::filesystem::path changed(const TemporaryFolder& folder, const std::filesystem::path& manifest,
-                                     const Changes& changes) {
-  std::string text = read_file(manifest);
+inline std::filesystem::path changed(const testing::ScratchFolder& folder,
+                                     const std::filesystem::path& manifest, const Changes& changes) {
+  std::string text = testing::text_of(manifest);
   const std::string model = manifest.stem().string() + ".onnx";
   Changes all{{"\"" + model + "\"", "\"" + (manifest.parent_path() / model).string() + "\""}};
   all.insert(all.begin(), changes.begin(), changes.end());
@@ -59,7 +37,7 @@ inline std::filesystem::path changed(const TemporaryFolder& folder, const std::f
     else if (&from != &all.back().first)
       throw std::logic_error("not in the manifest: " + from);
   }
-  const std::filesystem::path out = folder.path / "changed.json";
+  const std::filesystem::path out = folder.path() / "changed.json";
   std::ofstream(out) << text;
   return out;
 }

@@ -64,28 +64,28 @@ TEST_CASE("a wrong field of a manifest is named", "[normals]") {
       {{{"\"confidence\": \"confidence\"", "\"range\": [1, 0]"}}, "output.range"},
   };
   for (const auto& [changes, field] : cases) {
-    const TemporaryFolder folder;
+    const testing::ScratchFolder folder;
     check_complaint(changed(folder, fixtures() / "tiny_normals.json", changes), field);
   }
 }
 
 TEST_CASE("a file that is no manifest or no model is named", "[normals]") {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path / "text.json") << "{ not json";
-  std::ofstream(folder.path / "empty.json") << "";
-  std::ofstream(folder.path / "junk.onnx") << "no model at all";
-  check_complaint(folder.path / "absent.json", "no such manifest");
-  check_complaint(folder.path / "absent.onnx", "no such model");
-  check_complaint(folder.path / "text.json", "text.json");
-  check_complaint(folder.path / "empty.json", "empty.json");
-  check_complaint(folder.path / "junk.onnx", "junk.json: no such manifest");
+  const testing::ScratchFolder folder;
+  folder.write("text.json", "{ not json");
+  folder.write("empty.json", "");
+  folder.write("junk.onnx", "no model at all");
+  check_complaint(folder.path() / "absent.json", "no such manifest");
+  check_complaint(folder.path() / "absent.onnx", "no such model");
+  check_complaint(folder.path() / "text.json", "text.json");
+  check_complaint(folder.path() / "empty.json", "empty.json");
+  check_complaint(folder.path() / "junk.onnx", "junk.json: no such manifest");
   const auto junk =
       changed(folder, fixtures() / "tiny_normals.json", {{"\"tiny_normals.onnx\"", "\"junk.onnx\""}});
   check_complaint(junk, "junk.onnx: no ONNX model");
 }
 
 TEST_CASE("a model whose vectors are not unit is refused", "[normals]") {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   check_complaint(
       changed(folder, fixtures() / "tiny_normals.json", {{"\"name\": \"normal\"", "\"name\": \"raw\""}}),
       "output.name: 100 % of 'raw' is not finite or not of unit length");
@@ -93,7 +93,7 @@ TEST_CASE("a model whose vectors are not unit is refused", "[normals]") {
 
 TEST_CASE("a model whose mask or confidence is none is refused", "[normals]") {
   for (const std::string field : {"mask", "confidence"}) {
-    const TemporaryFolder folder;
+    const testing::ScratchFolder folder;
     const std::string output = field == "mask" ? "planar" : field;
     check_complaint(changed(folder, fixtures() / "tiny_normals.json",
                             {{"\"" + field + "\": \"" + output + "\"", "\"" + field + "\": \"depth\""}}),

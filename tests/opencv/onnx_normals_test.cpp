@@ -23,7 +23,7 @@ Vec3<double> tiny_answer(const Vec3<double>& rgb) {
 }
 
 DenseNormals tiny_infer(const Changes& changes, const cv::Mat& image) {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json", changes));
   DenseNormals dense;
   REQUIRE(source.infer(image, camera(image.cols, image.rows, 50), dense) == NormalStatus::kOk);
@@ -140,7 +140,7 @@ TEST_CASE("normals that contradict each other are no Manhattan evidence", "[norm
 }
 
 TEST_CASE("normals that are not finite or not of unit length are bad output", "[normals]") {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   OnnxNormals source(
       changed(folder, fixtures() / "tiny_normals.json", {{"\"name\": \"normal\"", "\"name\": \"frail\""}}));
   const auto cam = camera(64, 48, 50);
@@ -158,7 +158,7 @@ TEST_CASE("normals that are not finite or not of unit length are bad output", "[
 }
 
 TEST_CASE("a mask that leaves [0, 1] is bad output", "[normals]") {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
                              {{"\"mask\": \"planar\"", "\"mask\": \"frail_mask\""}}));
   const auto cam = camera(64, 48, 50);
@@ -179,7 +179,7 @@ TEST_CASE("every status has a message of its own", "[normals]") {
 }
 
 TEST_CASE("an image of another camera is brought to the network's camera", "[normals]") {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   OnnxNormals source(
       changed(folder, fixtures() / "tiny_normals.json", {{"\"channels\"", "\"focal\": 50, \"channels\""}}));
   DenseNormals same, wide;
@@ -206,7 +206,7 @@ TEST_CASE("lens distortion is taken out before the network", "[normals]") {
 TEST_CASE("a depth output becomes normals", "[normals]") {
   // The tiny model's depth is 2 b + 1 for blue in [-1, 1]: a flat grey image is a wall across the view.
   for (const std::string kind : {"depth", "inverse_depth"}) {
-    const TemporaryFolder folder;
+    const testing::ScratchFolder folder;
     OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
                                {{"\"normals\"", "\"" + kind + "\""},
                                 {"\"name\": \"normal\"", "\"name\": \"depth\""},
@@ -219,7 +219,7 @@ TEST_CASE("a depth output becomes normals", "[normals]") {
 }
 
 TEST_CASE("a depth output that is not finite is bad output, and without planes no evidence", "[normals]") {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
                              {{"\"normals\"", "\"depth\""},
                               {"\"name\": \"normal\"", "\"name\": \"frail_mask\""},

@@ -49,7 +49,7 @@ Difference against_stored(const DenseNormals& dense) {
 }
 
 Difference answer(const Changes& changes) {
-  const TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   OnnxNormals source(changed(folder, shipped(), changes));
   const cv::Mat image = cv::imread((fixtures() / "room.jpg").string());
   REQUIRE_FALSE(image.empty());
