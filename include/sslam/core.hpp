@@ -100,5 +100,6 @@
 #include "sslam/track/rotation.hpp"
 #include "sslam/track/stage_timer.hpp"
 #include "sslam/track/tracked_frame.hpp"
+#include "sslam/track/tracking_loss.hpp"
 #include "sslam/track/trajectory_log.hpp"
 #include "sslam/track/translation.hpp"

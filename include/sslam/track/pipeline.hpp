@@ -10,6 +10,7 @@
 #include "sslam/track/concepts.hpp"
 #include "sslam/track/motion_model.hpp"
 #include "sslam/track/stage_timer.hpp"
+#include "sslam/track/tracking_loss.hpp"
 #include "sslam/track/trajectory_log.hpp"
 
 namespace sslam {
@@ -31,12 +32,8 @@ class Pipeline {
   Keyframes keyframes;
   Mapping mapping;
   Backfill<S> backfill;
+  TrackingLoss<S> loss;
   Timer timer;
-
-  int relocalisation_tries = 3;  // keyframes to compare a lost frame with
-  int young_map = 5;             // keyframes: a map lost while it has fewer is given up and started anew
-  int give_up_after = 15;        // lost frames with enough features until that happens
-  int telling_features = 50;     // points plus lines that make a frame speak for or against the map
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
   TrackResult<S> track(Frame<S>& frame) {
@@ -58,8 +55,7 @@ class Pipeline {
   void resume(Map<S> map) {
     start_over(std::move(map));
     reference_ = 0;  // never removed
-    lost_frames_ = 1;
-    keep_map_ = true;
+    loss.begin_in_given_map();
   }
 
   [[nodiscard]] const Map<S>& map() const noexcept { return map_; }
@@ -100,14 +96,14 @@ class Pipeline {
 
   void follow(TrackResult<S>& result) {
     recent_.gather(*last_, *before_);
-    const PoseEstimate<S> estimate = lost_frames_ == 0 ? track_pose(result) : relocalise(result);
+    const PoseEstimate<S> estimate = loss.lasts() ? relocalise(result) : track_pose(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = current_->cam_from_world;
-    if (lost_frames_ > 0) {
+    if (loss.lasts()) {
       motion_.stop();
-      lost_frames_ = unfit_frames_ = 0;
+      loss.end();
       result.reason = Reason::kRelocalised;
     }
     consider_keyframe(result, estimate);
@@ -170,8 +166,8 @@ class Pipeline {
     result.state = State::kFallback;
     PoseEstimate<S> estimate;
     const auto count = static_cast<int>(map_.keyframes.size());
-    for (int i = 0; i < std::min(relocalisation_tries, count) && !estimate.ok(); ++i) {
-      const KeyframeId candidate = i == 0 ? reference_ : next_candidate();
+    for (int i = 0; i < std::min(loss.tries, count) && !estimate.ok(); ++i) {
+      const KeyframeId candidate = i == 0 ? reference_ : loss.next_candidate(map_);
       current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
       estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
       if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
@@ -183,26 +179,13 @@ class Pipeline {
     return estimate;
   }
 
-  // The keyframes in turn; the first one is always alive.
-  KeyframeId next_candidate() {
-    const auto count = static_cast<KeyframeId>(map_.keyframes.size());
-    do last_candidate_ = (last_candidate_ + 1) % count;
-    while (!map_.keyframes[map_.index(last_candidate_)].alive());
-    return last_candidate_;
-  }
-
   void lose(TrackResult<S>& result, Reason reason) {
     result.state = State::kLost;
     result.reason = reason;
     current_->forget_matches();
     current_->cam_from_world = last_->cam_from_world;
-    ++lost_frames_;
-    // A covered lens says nothing about the map; an image that shows enough and does not fit does.
-    if (static_cast<int>(current_->frame.points.size() + current_->frame.lines.size()) >= telling_features)
-      ++unfit_frames_;
-    if (unfit_frames_ < give_up_after || keep_map_ || static_cast<int>(map_.keyframes.size()) >= young_map)
-      return;
-    start_over({});
+    loss.add(current_->frame);
+    if (loss.refutes(map_)) start_over({});
   }
 
   void start_over(Map<S> map) {
@@ -212,7 +195,7 @@ class Pipeline {
     initialisation.reset();
     mapping.reset();
     motion_.stop();
-    lost_frames_ = unfit_frames_ = 0;
+    loss.end();
   }
 
   void consider_keyframe(TrackResult<S>& result, const PoseEstimate<S>& estimate) {
@@ -255,10 +238,6 @@ class Pipeline {
   Correspondences<S> scratch_;
   KeyframeId reference_ = kNone;
   int frames_since_keyframe_ = 0;
-  int lost_frames_ = 0;    // in a row
-  int unfit_frames_ = 0;   // of them, those that showed enough to be recognised
-  bool keep_map_ = false;  // it was not made here: however young, it is not given up
-  KeyframeId last_candidate_ = kNone;
 };
 
 }  // namespace sslam
