@@ -24,7 +24,9 @@ FileNormals open_files(const fs::path& folder) {
   }
   const fs::path encoding = folder / "encoding.txt";
   if (fs::exists(encoding, ignored) && !parse_normal_encoding(io::read_text(encoding), files.options)) {
-    throw io::Error(encoding.string() + ": expected one axis for each channel, such as 'r=+x g=+y b=+z'");
+    throw io::Error(encoding.string() +
+                    ": expected one axis for each channel, such as 'r=+x g=+y b=+z', "
+                    "and at most 'plane_sigma_deg=4.7' after them");
   }
   return files;
 }

@@ -9,10 +9,12 @@
 
 namespace sslam::cli {
 
-// Says that the images in `folder` are encode_normal's.
-inline void write_normal_encoding(const std::filesystem::path& folder) {
+// Says that the images in `folder` are encode_normal's, and how far off their planes are.
+inline void write_normal_encoding(const std::filesystem::path& folder, double plane_sigma_deg) {
   io::OutputFile encoding(folder / "encoding.txt");
-  encoding.stream() << kNormalEncoding << '\n';
+  encoding.stream() << kNormalEncoding;
+  if (plane_sigma_deg > 0) encoding.stream() << " plane_sigma_deg=" << plane_sigma_deg;
+  encoding.stream() << '\n';
   encoding.commit();
 }
 

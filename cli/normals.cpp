@@ -65,14 +65,14 @@ double assumed_focal_per_width(const NetworkInput& input) {
 }
 
 // Images must not be overwritten by their own normals.
-void prepare_folder(const fs::path& out, const io::Dataset& dataset) {
+void prepare_folder(const fs::path& out, const io::Dataset& dataset, const NormalManifest& manifest) {
   std::error_code ignored;
   for (const io::FrameEntry& frame : dataset.frames) {
     if (fs::equivalent(out, folder_of(frame.image), ignored))
       throw io::Error("--out " + out.string() + ": the images themselves are there; choose another folder");
   }
   io::prepare_output_folder(out);
-  write_normal_encoding(out);
+  write_normal_encoding(out, manifest.plane_sigma_deg);
 }
 
 // Image after image through the network and into the folder.
@@ -152,7 +152,7 @@ void run_normals(const NormalsSettings& settings) {
   OnnxNormals model = open_model(settings.model);
   const NormalManifest manifest = model.manifest();
   ImageCamera camera(find_camera(settings.camera, dataset), assumed_focal_per_width(manifest.input));
-  prepare_folder(settings.out, dataset);
+  prepare_folder(settings.out, dataset, manifest);
   NormalWriter writer(std::move(model), std::move(camera), settings.out);
   FrameReader reader(dataset);
   std::vector<std::string> failures;

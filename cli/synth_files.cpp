@@ -79,7 +79,7 @@ void prepare_synth_folder(const SynthSettings& settings) {
   if (settings.depth) io::prepare_output_folder(folder / "depth");
   if (!settings.normals) return;
   io::prepare_output_folder(folder / "normals");
-  write_normal_encoding(folder / "normals");
+  write_normal_encoding(folder / "normals", 0);  // exact
 }
 
 void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std::vector<std::uint8_t>& rgb) {

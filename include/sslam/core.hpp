@@ -86,6 +86,7 @@
 #include "sslam/track/initialisation.hpp"
 #include "sslam/track/keyframe_choice.hpp"
 #include "sslam/track/keyframe_culling.hpp"
+#include "sslam/track/keyframe_cursor.hpp"
 #include "sslam/track/landmark_culling.hpp"
 #include "sslam/track/mapping.hpp"
 #include "sslam/track/match_lines.hpp"

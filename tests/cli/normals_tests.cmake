@@ -21,7 +21,7 @@ file(WRITE ${folder}/flawed/b.jpg "no image\n")
 sslam_cli_test(NAME "normals of one image" ARGS normals ${fixtures}/room.jpg --camera ${folder}/room.yaml --quiet --out ${folder}/one
                OUT "^images +1 of 1\nplanar +[0-9.]+ % of the pixels\ninference +median [0-9.]+ ms an image\n"
                "model +[^\n]*planar_normals.onnx\nwritten to +[^\n]*normals/one: NAME.png"
-               FILE ${folder}/one/encoding.txt REGEX "^r=\\+x g=\\+y b=\\+z\n$")
+               FILE ${folder}/one/encoding.txt REGEX "^r=\\+x g=\\+y b=\\+z plane_sigma_deg=4.7\n$")
 sslam_cli_test(NAME "normals assumes a camera and says so" ARGS normals ${fixtures}/room.jpg ${tiny} --out ${folder}/assumed
                OUT "images +1 of 1" ERR "^sslam: note: the camera is not known: assuming a focal length of 256 pixels for 320x240[^\n]*\n$")
 sslam_cli_test(NAME "normals goes on over a bad image" ARGS normals ${folder}/flawed ${tiny} --out ${folder}/flawed_out

@@ -42,6 +42,7 @@ TEST_CASE("a manifest is read", "[normals]") {
   CHECK(m.output == "normal");
   CHECK(m.mask == "planar");
   CHECK(m.confidence == "confidence");
+  CHECK(m.plane_sigma_deg == 5);  // unless the manifest says otherwise
 }
 
 TEST_CASE("a wrong field of a manifest is named", "[normals]") {
@@ -62,6 +63,7 @@ TEST_CASE("a wrong field of a manifest is named", "[normals]") {
       {{{"\"mask\": \"planar\"", "\"mask\": \"raw\""}}, "output.mask"},
       {{{"\"confidence\": \"confidence\"", "\"confidence\": \"normal\""}}, "output.confidence"},
       {{{"\"confidence\": \"confidence\"", "\"range\": [1, 0]"}}, "output.range"},
+      {{{"\"confidence\": \"confidence\"", "\"plane_sigma_deg\": -1"}}, "output.plane_sigma_deg"},
   };
   for (const auto& [changes, field] : cases) {
     const testing::ScratchFolder folder;

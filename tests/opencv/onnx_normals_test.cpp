@@ -81,6 +81,7 @@ TEST_CASE("the weight is mask times confidence and the mask is a threshold", "[n
   const cv::Mat image = coloured(64, 48);
   const auto cam = camera(64, 48, 50);
   const NormalField field = fill(source, image, cam);
+  CHECK(near(field.plane_sigma, radians(5.0), 1e-6));  // the manifest does not say
   CHECK(source.report().evidence.enough);
   DenseNormals dense;
   REQUIRE(source.infer(image, cam, dense) == NormalStatus::kOk);

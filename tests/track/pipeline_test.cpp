@@ -85,6 +85,20 @@ TEST_CASE("The map starts once a turn in place becomes a walk") {
   REQUIRE(position_error(pipeline, simulation) < 0.03);  // of 1.2 m
 }
 
+TEST_CASE("A map that starts late reaches back to where the walk began") {
+  Simulation simulation(walk(120));
+  presets::Structure<double> pipeline;
+  pipeline.initialisation.min_points = 120;
+  pipeline.initialisation.min_parallax = radians(4.0);
+  const auto results = track_all(pipeline, simulation);
+  REQUIRE(count(results, State::kInitialising) > 20);
+  REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
+  REQUIRE(position_error(pipeline, simulation) < 0.03);
+  // The way back has keyframes of its own.
+  const auto& keyframes = pipeline.map().keyframes;
+  REQUIRE(keyframes[2].frame.index < keyframes[1].frame.index);
+}
+
 TEST_CASE("Without a Manhattan world the fallback carries the whole walk") {
   Simulation simulation(walk(120));
   presets::Features<double> pipeline;

@@ -78,6 +78,26 @@ def summary(angles):
             **{f"under_{t}": float((angles < t).mean()) for t in (11.25, 22.5, 30)}}
 
 
+LARGE_PLANE = 0.05  # of the image
+
+
+def direction_errors_deg(normal, weight, plane_id, planes):
+    """Error of the mean normal of each large plane: what its pixels get wrong together."""
+    errors = []
+    for k, truth in enumerate(planes, start=1):
+        on_plane = plane_id == k
+        if on_plane.mean() < LARGE_PLANE:
+            continue
+        mean = (normal[on_plane] * weight[on_plane, None]).sum(axis=0)
+        errors.append(float(angles_deg(mean / np.linalg.norm(mean).clip(1e-9), truth)))
+    return errors
+
+
+def rayleigh_sigma(errors_deg):
+    """Standard deviation per component of errors on the sphere, by their median: planes of another kind do not count."""
+    return float(np.median(errors_deg) / np.sqrt(2 * np.log(2))) if errors_deg else None
+
+
 def evaluate_planes(predictor, path, split, limit=None):
     archive = np.load(path)
     keep = np.nonzero(archive["split"] == split)[0]
@@ -85,12 +105,13 @@ def evaluate_planes(predictor, path, split, limit=None):
         keep = keep[np.linspace(0, len(keep) - 1, min(limit, len(keep))).astype(int)]
     images, ids, normals = (archive[k][keep] for k in ("images", "ids", "normals"))
     camera = samples.camera_matrix(*archive["camera"])
-    angles, hits, totals, confident = [], np.zeros(2), np.zeros(2), []
+    angles, hits, totals, confident, directions = [], np.zeros(2), np.zeros(2), [], []
     for image, plane_id, planes in zip(images, ids, normals):
         planar, normal, confidence = predict(predictor, image, camera)
         truth = (plane_id > 0) & (plane_id < UNKNOWN)
         angles.append(angles_deg(normal[truth], planes[plane_id[truth].astype(int) - 1]).astype(np.float32))
         confident.append(confidence[truth])
+        directions += direction_errors_deg(normal, planar * confidence, plane_id, planes)
         for k, mask in enumerate((plane_id == 0, truth)):
             hits[k] += ((planar > 0.5) == (k == 1))[mask].sum()
             totals[k] += mask.sum()
@@ -98,7 +119,8 @@ def evaluate_planes(predictor, path, split, limit=None):
     sure = angles[confident >= np.median(confident)]
     return {"images": len(keep), **summary(angles), "median_of_surer_half": float(np.median(sure)),
             "planar_recall": hits[1] / totals[1], "other_recall": hits[0] / totals[0],
-            "balanced_accuracy": float((hits / totals).mean())}
+            "balanced_accuracy": float((hits / totals).mean()),
+            "planes": len(directions), "plane_sigma_deg": rayleigh_sigma(directions)}
 
 
 def depth_normals(depth, camera, radius=10):

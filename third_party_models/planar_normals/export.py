@@ -62,7 +62,7 @@ def check_in_opencv(net, path):
     return max(float(np.abs(a - b).max()) for a, b in zip(expected, reader.forward(list(OUTPUTS))))
 
 
-def manifest(model_path):
+def manifest(model_path, plane_sigma_deg):
     digest = hashlib.sha256(open(model_path, "rb").read()).hexdigest()
     return {
         "format": "sslam-normals-1",
@@ -74,7 +74,7 @@ def manifest(model_path):
         },
         "output": {
             "kind": "normals", "name": "normal", "axes": ["x", "y", "z"], "signs": [1, 1, 1],
-            "mask": "planar", "confidence": "confidence",
+            "plane_sigma_deg": plane_sigma_deg, "mask": "planar", "confidence": "confidence",
         },
     }
 
@@ -84,6 +84,8 @@ def main():
     parser.add_argument("checkpoint")
     parser.add_argument("--out", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), "planar_normals.onnx"),
                         help="the .onnx to write; the manifest goes beside it as .json")
+    parser.add_argument("--plane-sigma-deg", type=float, default=5,
+                        help="what the normals of one plane get wrong together, as evaluate.py finds it on the validation split")
     args = parser.parse_args()
     net, state = nets.load_checkpoint(args.checkpoint)
     temporary = args.out + ".tmp"
@@ -96,11 +98,12 @@ def main():
     finally:
         if os.path.exists(temporary):
             os.remove(temporary)
+    described = manifest(args.out, args.plane_sigma_deg)
     with open(os.path.splitext(args.out)[0] + ".json", "w") as file:
-        json.dump(manifest(args.out), file, indent=2)
+        json.dump(described, file, indent=2)
         file.write("\n")
     size = os.path.getsize(args.out) / 1e6
-    print(f"{args.out}: step {state['step']}, {size:.2f} MB, sha256 {manifest(args.out)['sha256']}, "
+    print(f"{args.out}: step {state['step']}, {size:.2f} MB, sha256 {described['sha256']}, "
           f"OpenCV against PyTorch {difference if difference is not None else 'not checked'}")
 
 

@@ -34,10 +34,14 @@ struct LineFeature {
 // One array per component, so that a kernel can read a network's planes as they are.
 struct NormalField {
   std::vector<float> x, y, z, weight;
+  // What the normals of one plane get wrong together: standard deviation of their mean's direction per
+  // component, radians. No number of normals averages it away.
+  float plane_sigma = 0;
 
   [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
   void clear() noexcept {
     for (auto* plane : {&x, &y, &z, &weight}) plane->clear();
+    plane_sigma = 0;
   }
   void push_back(float nx, float ny, float nz, float w) {
     x.push_back(nx);

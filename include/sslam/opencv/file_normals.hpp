@@ -21,21 +21,24 @@ struct FileNormalsOptions {
   std::string extension = ".png";          // of FOLDER/NAME.EXTENSION, NAME as in ImageInput
   std::array<int, 3> channel{0, 1, 2};     // of the camera's x, y and z axis, in the order blue, green, red
   std::array<double, 3> sign{-1, -1, -1};  // of x, y and z against the stored value
+  double plane_sigma_deg = 5;              // what the normals of one plane get wrong together (NormalField)
   int step = 4;                            // between two normals that are used, pixels of the file
   double max_norm_error = 0.15;            // of a stored vector from unit length: beyond, it is no normal
   PlanarMaskOptions mask;
 };
 
-// Which channel holds which axis: three cells such as "r=+x g=+y b=+z" in any order. False, with the options
-// as they were, when the text is none.
+// Which channel holds which axis: three cells such as "r=+x g=+y b=+z" in any order, and after them, where
+// the normals are not exact, "plane_sigma_deg=4.7". False, with the options as they were, when the text is
+// none.
 [[nodiscard]] inline bool parse_normal_encoding(const std::string& text, FileNormalsOptions& options) {
   constexpr std::string_view kChannels = "bgr", kAxes = "xyz";
   FileNormalsOptions parsed = options;
   std::array<bool, 3> channel_seen{}, axis_seen{};
+  parsed.plane_sigma_deg = 0;
   std::istringstream cells(text);
   std::string cell;
   int count = 0;
-  for (; cells >> cell; ++count) {
+  for (; count < 3 && cells >> cell; ++count) {
     if (cell.size() != 4 || cell[1] != '=' || (cell[2] != '+' && cell[2] != '-')) return false;
     const auto channel = kChannels.find(cell[0]), axis = kAxes.find(cell[3]);
     if (channel == kChannels.npos || axis == kAxes.npos || channel_seen[channel] || axis_seen[axis])
@@ -45,6 +48,14 @@ struct FileNormalsOptions {
     parsed.sign[axis] = cell[2] == '+' ? 1 : -1;
   }
   if (count != 3) return false;
+  constexpr std::string_view kSigma = "plane_sigma_deg=";
+  if (cells >> cell) {
+    std::string more;
+    if (!cell.starts_with(kSigma) || cells >> more) return false;
+    std::istringstream number(cell.substr(kSigma.size()));
+    if (!(number >> parsed.plane_sigma_deg) || !number.eof()) return false;
+    if (!(parsed.plane_sigma_deg >= 0 && parsed.plane_sigma_deg < 90)) return false;
+  }
   options = parsed;
   return true;
 }
@@ -92,6 +103,7 @@ class FileNormals {
     }
     if (away > facing) return NormalStatus::kFacesAway;
     keep_planar(grid_, options.mask, field);
+    field.plane_sigma = static_cast<float>(radians(options.plane_sigma_deg));
     return NormalStatus::kOk;
   }
 

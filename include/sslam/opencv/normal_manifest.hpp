@@ -40,6 +40,7 @@ struct NormalManifest {
   std::array<double, 3> sign{1, 1, 1};  // of channels 0, 1 and 2 against their axis
   std::array<double, 2> range{-1, 1};   // the output values that stand for -1 and 1
   double depth_scale = 1;               // metres of one unit of depth; of inverse depth: 1 / metres
+  double plane_sigma_deg = 5;           // what the normals of one plane get wrong together (NormalField)
   std::string mask, confidence;         // names of outputs in [0, 1] with one channel; empty: none
 };
 
@@ -147,16 +148,17 @@ inline void read_axes(const cv::FileNode& node, const Reader& reader, NormalMani
 inline void read_output(const cv::FileNode& node, const Reader& reader, NormalManifest& manifest) {
   const std::string kind = node.isMap() ? reader.text(node, "kind", "output") : "";
   if (kind == "normals") {
-    reader.only(node, "output", {"kind", "name", "axes", "signs", "range", "mask", "confidence"});
+    reader.only(node, "output", {"kind", "name", "axes", "signs", "range", "plane_sigma_deg", "mask", "confidence"});
     read_axes(node, reader, manifest);
   } else if (kind == "depth" || kind == "inverse_depth") {
-    reader.only(node, "output", {"kind", "name", "scale"});
+    reader.only(node, "output", {"kind", "name", "scale", "plane_sigma_deg"});
     manifest.kind = kind == "depth" ? NetworkOutput::kDepth : NetworkOutput::kInverseDepth;
     manifest.depth_scale = reader.number(node, "scale", "output", 1);
   } else {
     reader.fail("output.kind", "'" + kind + "' is neither normals, depth nor inverse_depth");
   }
   manifest.output = reader.text(node, "name", "output");
+  manifest.plane_sigma_deg = reader.number(node, "plane_sigma_deg", "output", manifest.plane_sigma_deg);
   manifest.mask = reader.text(node, "mask", "output", "");
   manifest.confidence = reader.text(node, "confidence", "output", "");
 }

@@ -56,13 +56,11 @@ class OnnxNormals {
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     field.clear();
     report_ = {};
-    if (manifest().kind == NetworkOutput::kNormals) {
-      const NormalStatus status = infer(input.image, camera, dense_);
-      if (status != NormalStatus::kOk) return status;
-      report_.evidence = select_normals(dense_, options.evidence, field);
-      return report_.evidence.enough ? NormalStatus::kOk : NormalStatus::kNoEvidence;
-    }
-    return fill_from_depth(input, camera, field);
+    const NormalStatus status = manifest().kind == NetworkOutput::kNormals
+                                    ? fill_from_normals(input, camera, field)
+                                    : fill_from_depth(input, camera, field);
+    field.plane_sigma = static_cast<float>(radians(manifest().plane_sigma_deg));
+    return status;
   }
 
   // The whole answer, at the resolution of the output. For models whose output is normals.
@@ -133,6 +131,13 @@ class OnnxNormals {
   }
 
   static constexpr int kDepthWidth = 320;  // pixels
+
+  NormalStatus fill_from_normals(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
+    const NormalStatus status = infer(input.image, camera, dense_);
+    if (status != NormalStatus::kOk) return status;
+    report_.evidence = select_normals(dense_, options.evidence, field);
+    return report_.evidence.enough ? NormalStatus::kOk : NormalStatus::kNoEvidence;
+  }
 
   NormalStatus fill_from_depth(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     const NormalStatus status = network_.run(input.image, camera);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <deque>
 
+#include "sslam/track/keyframe_cursor.hpp"
 #include "sslam/track/trajectory_log.hpp"
 #include "sslam/track/translation.hpp"
 
@@ -16,6 +18,7 @@ template <Scalar S>
 class Backfill {
  public:
   std::size_t max_frames = 150;  // that are kept while waiting: about 5 s, 100 kB each
+  int max_misses = 5;            // frames in a row, as blurred ones are, beyond which a sweep may go on
 
   void keep(const TrackedFrame<S>& frame) {
     if (max_frames == 0) return;
@@ -26,51 +29,61 @@ class Backfill {
   void clear() { waiting_.clear(); }
 
   // Tracks the waiting frames one after the other, away from the two keyframes of the first map: between them
-  // from the first until one fails, then from the second; before them backwards. Poses go into the log.
-  template <class Fallback, class Refinement>
-  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, TrajectoryLog<S>& log) {
-    const Keyframe<S>& first = map.keyframes.front();
-    const Keyframe<S>& second = map.keyframes.back();
-    const auto position = [&](std::int64_t index) {  // of the first waiting frame that is not before `index`
+  // from the first until track is lost, then from the second; before them backwards. Poses go into the log,
+  // and keyframes into the map, as they do forwards.
+  template <class Fallback, class Refinement, class Keyframes, class Mapping>
+  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, const Keyframes& keyframes,
+           Mapping& mapping, TrajectoryLog<S>& log) {
+    const auto position = [&](KeyframeId id, int after) {  // of the first waiting frame past the keyframe's
+      const std::int64_t index = map.keyframes[map.index(id)].frame.index + after;
       const auto at = std::find_if(waiting_.begin(), waiting_.end(),
                                    [&](const TrackedFrame<S>& f) { return f.frame.index >= index; });
       return at - waiting_.begin();
     };
-    const auto sweep = [&](const Keyframe<S>& from, std::ptrdiff_t begin, std::ptrdiff_t end,
-                           std::ptrdiff_t step) {
-      previous_.point_landmarks = from.point_landmarks;
-      previous_.line_landmarks = from.line_landmarks;
-      previous_.cam_from_world = from.cam_from_world;
-      std::ptrdiff_t i = begin;
-      for (; i != end; i += step)
-        if (!track(waiting_[static_cast<std::size_t>(i)], from.id, map, fallback, refinement, log)) break;
-      return i;
+    const auto sweep = [&](KeyframeId from, std::ptrdiff_t begin, std::ptrdiff_t end, std::ptrdiff_t step) {
+      cursor_.move_to(from);
+      leave(map.keyframes[map.index(from)]);
+      std::ptrdiff_t next = begin;  // after the last frame that was tracked
+      for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= max_misses; i += step) {
+        TrackedFrame<S>& frame = waiting_[static_cast<std::size_t>(i)];
+        const PoseEstimate<S> estimate = track(frame, map, fallback, refinement);
+        if (!estimate.ok()) continue;
+        cursor_.advance(map, frame, estimate, keyframes, mapping);
+        log.add(map, frame.frame.index, frame.frame.stamp, cursor_.reference(), frame.cam_from_world);
+        leave(frame);
+        next = i + step;
+      }
+      return next;
     };
-    const std::ptrdiff_t after_first = position(first.frame.index + 1);
-    const std::ptrdiff_t failed = sweep(first, after_first, position(second.frame.index), 1);
-    sweep(second, position(second.frame.index) - 1, failed - 1, -1);
-    sweep(first, position(first.frame.index) - 1, -1, -1);
+    const KeyframeId first = 0, second = 1;
+    const std::ptrdiff_t after_first = position(first, 1), before_second = position(second, 0);
+    const std::ptrdiff_t rest = sweep(first, after_first, before_second, 1);
+    sweep(second, before_second - 1, rest - 1, -1);
+    sweep(first, position(first, 0) - 1, -1, -1);
     waiting_.clear();
   }
 
  private:
   template <class Fallback, class Refinement>
-  bool track(TrackedFrame<S>& frame, KeyframeId reference, Map<S>& map, Fallback& fallback,
-             Refinement& refinement, TrajectoryLog<S>& log) {
+  PoseEstimate<S> track(TrackedFrame<S>& frame, Map<S>& map, Fallback& fallback, Refinement& refinement) {
     recent_.gather(previous_, previous_);
     frame.cam_from_world = previous_.cam_from_world;
-    if (!fallback.track(map, recent_, nullptr, frame).ok()) return false;
-    if (!refinement.refine(map, nullptr, frame).ok()) return false;
-    log.add(map, frame.frame.index, frame.frame.stamp, reference, frame.cam_from_world);
-    previous_.point_landmarks = frame.point_landmarks;
-    previous_.line_landmarks = frame.line_landmarks;
-    previous_.cam_from_world = frame.cam_from_world;
-    return true;
+    const PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame);
+    return estimate.ok() ? refinement.refine(map, nullptr, frame) : estimate;
+  }
+
+  // The next frame is looked for from this frame or keyframe.
+  template <class View>
+  void leave(const View& view) {
+    previous_.point_landmarks = view.point_landmarks;
+    previous_.line_landmarks = view.line_landmarks;
+    previous_.cam_from_world = view.cam_from_world;
   }
 
   std::deque<TrackedFrame<S>> waiting_;
   TrackedFrame<S> previous_;  // its matches and its pose alone
   RecentLandmarks<S> recent_;
+  KeyframeCursor<S> cursor_;
 };
 
 }  // namespace sslam

@@ -43,7 +43,7 @@ class KeyframeMapping {
     map.update_covisibility(id);
     optimiser.optimise(map, id);
     keyframe_culling.cull(map, id);
-    read_back(map, id, frame);
+    frame.read_back(map.keyframes[map.index(id)]);
     return id;
   }
 
@@ -53,17 +53,10 @@ class KeyframeMapping {
     creation.create(map, id, median_depth);
     map.update_covisibility(id);
     optimiser.optimise(map, id);
-    read_back(map, id, frame);
+    frame.read_back(map.keyframes[map.index(id)]);
   }
 
   void reset() { culling.reset(); }
-
-  static void read_back(const Map<S>& map, KeyframeId id, TrackedFrame<S>& frame) {
-    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    frame.cam_from_world = keyframe.cam_from_world;
-    frame.point_landmarks = keyframe.point_landmarks;
-    frame.line_landmarks = keyframe.line_landmarks;
-  }
 };
 
 }  // namespace sslam

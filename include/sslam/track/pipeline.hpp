@@ -8,6 +8,7 @@
 
 #include "sslam/track/backfill.hpp"
 #include "sslam/track/concepts.hpp"
+#include "sslam/track/keyframe_cursor.hpp"
 #include "sslam/track/motion_model.hpp"
 #include "sslam/track/stage_timer.hpp"
 #include "sslam/track/tracking_loss.hpp"
@@ -54,7 +55,7 @@ class Pipeline {
   // Goes on in a map that was made earlier: the next frames are lost until one is recognised.
   void resume(Map<S> map) {
     start_over(std::move(map));
-    reference_ = 0;  // never removed
+    cursor_.move_to(0);  // never removed
     loss.begin_in_given_map();
   }
 
@@ -81,13 +82,13 @@ class Pipeline {
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
     if (result.reason != Reason::kFine) return backfill.keep(*current_);
-    mapping.begin(map_, *current_, scene_depth());
+    mapping.begin(map_, *current_, cursor_.scene_depth(map_, *current_));
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : map_.keyframes)
       log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
-    backfill.run(map_, fallback, refinement, log_);
-    reference_ = map_.keyframes.back().id;
-    frames_since_keyframe_ = 0;
+    cursor_.move_to(map_.keyframes.back().id);
+    backfill.run(map_, fallback, refinement, keyframes, mapping, log_);
+    current_->read_back(map_.keyframes[map_.index(cursor_.reference())]);
     report(result, answer.trusted ? State::kManhattan : State::kFallback);
     result.keyframe = true;
     motion_.stop();
@@ -106,9 +107,10 @@ class Pipeline {
       loss.end();
       result.reason = Reason::kRelocalised;
     }
-    consider_keyframe(result, estimate);
+    result.keyframe = cursor_.advance(map_, *current_, estimate, keyframes, mapping);
+    if (result.keyframe) timer.end(Stage::kMapping);
     motion_.update(current_->cam_from_world, result.stamp);
-    log_.add(map_, result.index, result.stamp, reference_, current_->cam_from_world);
+    log_.add(map_, result.index, result.stamp, cursor_.reference(), current_->cam_from_world);
   }
 
   RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
@@ -152,7 +154,7 @@ class Pipeline {
     PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, *current_);
     if (!estimate.ok()) {
       current_->cam_from_world = last_->cam_from_world;
-      estimate = fallback.track_keyframe(map_, reference_, prior, *current_);
+      estimate = fallback.track_keyframe(map_, cursor_.reference(), prior, *current_);
     }
     timer.end(Stage::kFallback);
     if (!estimate.ok()) return estimate;
@@ -167,11 +169,11 @@ class Pipeline {
     PoseEstimate<S> estimate;
     const auto count = static_cast<int>(map_.keyframes.size());
     for (int i = 0; i < std::min(loss.tries, count) && !estimate.ok(); ++i) {
-      const KeyframeId candidate = i == 0 ? reference_ : loss.next_candidate(map_);
+      const KeyframeId candidate = i == 0 ? cursor_.reference() : loss.next_candidate(map_);
       current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
       estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
       if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
-      if (estimate.ok()) reference_ = candidate;
+      if (estimate.ok()) cursor_.refer_to(candidate);
     }
     timer.end(Stage::kFallback);
     // Only now is it known near which rotation the axes are to be looked for.
@@ -198,23 +200,6 @@ class Pipeline {
     loss.end();
   }
 
-  void consider_keyframe(TrackResult<S>& result, const PoseEstimate<S>& estimate) {
-    ++frames_since_keyframe_;
-    const S depth = scene_depth();
-    const int inliers = estimate.point_inliers + estimate.line_inliers;
-    if (!keyframes.choose(map_, reference_, *current_, inliers, frames_since_keyframe_, depth)) return;
-    reference_ = mapping.insert(map_, *current_, depth);
-    frames_since_keyframe_ = 0;
-    result.keyframe = true;
-    timer.end(Stage::kMapping);
-  }
-
-  // Median depth of what the frame sees of the map.
-  S scene_depth() {
-    scratch_.gather(map_, *current_);
-    return scratch_.median_depth(current_->cam_from_world);
-  }
-
   void report(TrackResult<S>& result, State state) {
     scratch_.gather(map_, *current_);
     result.state = state;
@@ -236,8 +221,7 @@ class Pipeline {
   RecentLandmarks<S> recent_;
   ConstantVelocity<S> motion_;
   Correspondences<S> scratch_;
-  KeyframeId reference_ = kNone;
-  int frames_since_keyframe_ = 0;
+  KeyframeCursor<S> cursor_;
 };
 
 }  // namespace sslam

@@ -2,6 +2,7 @@
 // The rotation stage: where the Manhattan frame is seen, it gives each frame's rotation without drift.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -36,12 +37,14 @@ class ManhattanRotation {
     const auto& n = frame.frame.normals;
     const NormalView<float> normals{n.x.data(), n.y.data(), n.z.data(), n.weight.data(), n.size()};
     frame.line_axes.assign(frame.frame.lines.size(), kNone);
+    SearchOptions<S> options = search;
+    options.rotation.normal_floor = std::max(options.rotation.normal_floor, static_cast<S>(n.plane_sigma));
     ManhattanEstimate<S> estimate;
     if (world_from_manhattan_) {
       const ManhattanPrior<S> prior{predicted_cam_from_world * *world_from_manhattan_};
-      estimate = track_manhattan<S>(normals, votes_, prior, search.rotation, frame.line_axes);
+      estimate = track_manhattan<S>(normals, votes_, prior, options.rotation, frame.line_axes);
     } else {
-      estimate = find(normals, predicted_cam_from_world, mapped, frame);
+      estimate = find(normals, options, predicted_cam_from_world, mapped, frame);
     }
     const bool seen = usable(estimate.status) || estimate.status == Status::kDegenerate;
     if (!seen || !world_from_manhattan_) return {};
@@ -64,9 +67,9 @@ class ManhattanRotation {
       votes_.push_back(line_vote(line.segment, frame.pinhole, line.sigma));
   }
 
-  ManhattanEstimate<S> find(const NormalView<float>& normals, const SO3<S>& predicted, bool mapped,
-                            TrackedFrame<S>& frame) {
-    ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, search, seed, frame.line_axes);
+  ManhattanEstimate<S> find(const NormalView<float>& normals, const SearchOptions<S>& options,
+                            const SO3<S>& predicted, bool mapped, TrackedFrame<S>& frame) {
+    ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, options, seed, frame.line_axes);
     if (!usable(estimate.status) || estimate.axes_seen < 2) {
       candidate_.reset();
       return estimate;

@@ -34,6 +34,13 @@ struct TrackedFrame {
     line_landmarks.assign(frame.lines.size(), kNone);
   }
 
+  // Takes over what the map has made of this frame since it joined as a keyframe.
+  void read_back(const Keyframe<S>& keyframe) {
+    cam_from_world = keyframe.cam_from_world;
+    point_landmarks = keyframe.point_landmarks;
+    line_landmarks = keyframe.line_landmarks;
+  }
+
   [[nodiscard]] Keyframe<S> to_keyframe() const {
     Keyframe<S> keyframe;
     keyframe.frame = frame;
