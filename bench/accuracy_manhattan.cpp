@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Accuracy of the Manhattan rotation alone, before any refinement, on a sequence with ground truth:
-//   accuracy_manhattan FOLDER [both|lines|normals] [--camera NAME] [--csv FILE] [--find]
-// FOLDER is a dataset with images (and depth for normals), or holds stored normals in normals/N.png with an
-// ICL-NUIM ground truth. --find searches the whole of SO(3) in every frame instead of tracking from the last
-// one.
+//   accuracy_manhattan FOLDER [both|lines|normals] [--model ONNX] [--camera NAME] [--csv FILE] [--find]
+// FOLDER is a dataset with images and, for normals without --model, depth; or it holds stored normals in
+// normals/N.png with an ICL-NUIM ground truth. --find searches the whole of SO(3) in every frame instead of
+// tracking from the last one.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -21,6 +21,7 @@
 #include "sslam/opencv/depth_normals.hpp"
 #include "sslam/opencv/file_normals.hpp"
 #include "sslam/opencv/image_frontend.hpp"
+#include "sslam/opencv/onnx_normals.hpp"
 
 namespace {
 
@@ -31,6 +32,7 @@ struct Settings {
   bool lines = true;
   bool normals = true;
   bool find = false;
+  std::string model;  // of a network's normals; empty: normals from depth
   std::string csv;
   std::string camera;  // of the built-in calibrations; empty: by dataset
 };
@@ -62,13 +64,15 @@ class Runner {
                                     votes.normals.z.data(), votes.normals.weight.data(),
                                     votes.normals.size(),   1};
     const std::span<const LineVote<float>> lines(votes.lines);
+    SearchOptions<float> options;
+    options.rotation.normal_floor = std::max(options.rotation.normal_floor, votes.normals.plane_sigma);
     FrameResult result;
     result.stamp = votes.stamp;
     const auto start = std::chrono::steady_clock::now();
     if (find_ || !started_)
-      result.estimate = find_manhattan<float>(normals, lines, SearchOptions<float>{}, 1);
+      result.estimate = find_manhattan<float>(normals, lines, options, 1);
     else
-      result.estimate = track_manhattan<float>(normals, lines, prior_);
+      result.estimate = track_manhattan<float>(normals, lines, prior_, options.rotation);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++attempts_;
     if (!started_ && !usable(result.estimate.status)) return;
@@ -121,28 +125,29 @@ void run_stored_normals(const Settings& settings, Runner& runner) {
   }
 }
 
-void run_dataset(const Settings& settings, Runner& runner) {
+template <NormalSource Source>
+void run_dataset(const Settings& settings, Source source, Runner& runner) {
   const io::Dataset dataset = io::open_dataset(settings.folder);
   const auto known =
       settings.camera.empty() ? io::known_camera_for(dataset) : io::find_known_camera(settings.camera);
   if (!known)
     throw io::Error(settings.folder.string() +
                     ": no built-in calibration; name one with --camera: " + io::known_camera_names());
-  ImageFrontend<DepthNormals> frontend;
+  ImageFrontend<> frontend;
   frontend.camera = known->camera;
   Frame<double> frame;
   for (const io::FrameEntry& entry : dataset.frames) {
     if (!entry.world_from_cam) continue;
     ImageInput input;
-    input.image = cv::imread(entry.image.string(), cv::IMREAD_GRAYSCALE);
-    if (settings.normals && !entry.depth.empty())
-      input.depth = cv::imread(entry.depth.string(), cv::IMREAD_UNCHANGED);
+    input.image = cv::imread(entry.image.string(), cv::IMREAD_COLOR);
+    if (!entry.depth.empty()) input.depth = cv::imread(entry.depth.string(), cv::IMREAD_UNCHANGED);
     input.depth_factor = known->depth_factor;
     if (frontend.process(input, frame).image != ImageStatus::kOk) continue;
     Votes votes;
     votes.stamp = entry.stamp;
     votes.cam_from_world = entry.world_from_cam->rotation.inverse();
-    if (settings.normals) votes.normals = frame.normals;
+    if (settings.normals && source.fill(input, frontend.camera, votes.normals) != NormalStatus::kOk)
+      votes.normals.clear();
     if (settings.lines) {
       for (const LineFeature<double>& line : frame.lines) {
         const LineVote<double> vote = line_vote(line.segment, frame.pinhole, line.sigma);
@@ -217,6 +222,8 @@ bool parse(int argc, char** argv, Settings& settings) {
       settings.find = true;
     else if (word == "--csv" && i + 1 < argc)
       settings.csv = argv[++i];
+    else if (word == "--model" && i + 1 < argc)
+      settings.model = argv[++i];
     else if (word == "--camera" && i + 1 < argc)
       settings.camera = argv[++i];
     else if (word != "both")
@@ -230,17 +237,19 @@ bool parse(int argc, char** argv, Settings& settings) {
 int main(int argc, char** argv) {
   Settings settings;
   if (!parse(argc, argv, settings)) {
-    std::fprintf(
-        stderr,
-        "usage: accuracy_manhattan FOLDER [both|lines|normals] [--camera NAME] [--csv FILE] [--find]\n");
+    std::fprintf(stderr,
+                 "usage: accuracy_manhattan FOLDER [both|lines|normals] [--model ONNX] [--camera NAME] "
+                 "[--csv FILE] [--find]\n");
     return 2;
   }
   try {
     Runner runner(settings.find);
     if (std::filesystem::is_directory(settings.folder / "normals"))
       run_stored_normals(settings, runner);
+    else if (settings.model.empty())
+      run_dataset(settings, DepthNormals(), runner);
     else
-      run_dataset(settings, runner);
+      run_dataset(settings, OnnxNormals(settings.model), runner);
     report(settings, runner);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "accuracy_manhattan: %s\n", error.what());

@@ -50,6 +50,18 @@ TEST_CASE("Erasing a landmark frees the features that saw it") {
   REQUIRE(map.keyframes[0].point_landmarks[1] == 1);
 }
 
+TEST_CASE("The id of an erased landmark serves again") {
+  Map<double> map = small_map();
+  const std::size_t points = map.points.size();
+  map.erase_point(1);
+  map.erase_point(1);  // no more than once
+  REQUIRE(map.add_point({1, 2, 3}, 2) == 1);
+  REQUIRE(map.points[1].alive);
+  REQUIRE(map.points[1].observations.empty());
+  REQUIRE(map.points[1].first_keyframe == 2);
+  REQUIRE(map.add_point({1, 2, 4}, 2) == static_cast<LandmarkId>(points));
+}
+
 TEST_CASE("A landmark that only one keyframe sees any more is erased") {
   Map<double> map = small_map();
   map.forget_point(1, 0);

@@ -81,6 +81,7 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
     Map<double> map;
     MapFields(payload).walk(map);
     check_map(map);
+    map.collect_free_ids();
     return map;
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what());

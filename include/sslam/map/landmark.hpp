@@ -26,7 +26,7 @@ struct LandmarkCommon {
   KeyframeId first_keyframe = kNone;  // that created it
   std::int32_t visible = 0;           // frames in which it should have been seen
   std::int32_t found = 0;             // frames in which it was
-  bool alive = true;                  // false: culled or fused; its id stays unused
+  bool alive = true;                  // false: culled or fused; a later landmark may take its id
 };
 
 template <Scalar S>

@@ -47,8 +47,7 @@ class Map {
     point.viewing_direction.setZero();
     point.first_keyframe = creator;
     point.visible = point.found = 1;
-    points.push_back(std::move(point));
-    return static_cast<LandmarkId>(points.size() - 1);
+    return settle(points, free_points_, std::move(point));
   }
 
   LandmarkId add_line(const Line3<S>& line, const Vec3<S>& start, const Vec3<S>& end, KeyframeId creator) {
@@ -58,8 +57,7 @@ class Map {
     landmark.end = end;
     landmark.first_keyframe = creator;
     landmark.visible = landmark.found = 1;
-    lines.push_back(std::move(landmark));
-    return static_cast<LandmarkId>(lines.size() - 1);
+    return settle(lines, free_lines_, std::move(landmark));
   }
 
   void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
@@ -78,8 +76,20 @@ class Map {
     if (line.axis == kNone) line.axis = kf.line_axes.empty() ? std::int8_t{kNone} : kf.line_axes[feature];
   }
 
-  void erase_point(LandmarkId id) { erase(points, id, &Keyframe<S>::point_landmarks); }
-  void erase_line(LandmarkId id) { erase(lines, id, &Keyframe<S>::line_landmarks); }
+  // The id is given to a later landmark: whoever keeps ids beyond the next add_ must be ready for that.
+  void erase_point(LandmarkId id) { erase(points, free_points_, id, &Keyframe<S>::point_landmarks); }
+  void erase_line(LandmarkId id) { erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks); }
+
+  // Finds the ids that can be given away in landmarks that were filled in from outside.
+  void collect_free_ids() {
+    const auto collect = [](const auto& landmarks, std::vector<LandmarkId>& free) {
+      free.clear();
+      for (std::size_t i = 0; i < landmarks.size(); ++i)
+        if (!landmarks[i].alive) free.push_back(static_cast<LandmarkId>(i));
+    };
+    collect(points, free_points_);
+    collect(lines, free_lines_);
+  }
 
   // Withdraws one observation; a landmark left with fewer than two goes too.
   void forget_point(LandmarkId id, KeyframeId keyframe) {
@@ -147,6 +157,19 @@ class Map {
   }
 
  private:
+  template <class Landmark>
+  static LandmarkId settle(std::vector<Landmark>& landmarks, std::vector<LandmarkId>& free,
+                           Landmark landmark) {
+    if (free.empty()) {
+      landmarks.push_back(std::move(landmark));
+      return static_cast<LandmarkId>(landmarks.size() - 1);
+    }
+    const LandmarkId id = free.back();
+    free.pop_back();
+    landmarks[index(id)] = std::move(landmark);
+    return id;
+  }
+
   template <class Landmarks>
   static void enter(std::vector<LandmarkId>& seen, Landmarks& landmarks, KeyframeId keyframe) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -171,8 +194,9 @@ class Map {
   }
 
   template <class Landmarks, class Member>
-  void erase(Landmarks& landmarks, LandmarkId id, Member seen) {
+  void erase(Landmarks& landmarks, std::vector<LandmarkId>& free, LandmarkId id, Member seen) {
     auto& landmark = landmarks[index(id)];
+    if (!landmark.alive) return;
     for (const Observation& o : landmark.observations) {
       LandmarkId& slot = (keyframes[index(o.keyframe)].*seen)[index(o.feature)];
       if (slot == id) slot = kNone;
@@ -180,6 +204,7 @@ class Map {
     landmark.observations.clear();
     landmark.observations.shrink_to_fit();
     landmark.alive = false;
+    free.push_back(id);
   }
 
   // True when too few observations are left.
@@ -226,7 +251,8 @@ class Map {
                      [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
   }
 
-  std::vector<std::int32_t> shared_;  // scratch of update_covisibility
+  std::vector<LandmarkId> free_points_, free_lines_;  // ids of erased landmarks
+  std::vector<std::int32_t> shared_;                  // scratch of update_covisibility
 };
 
 }  // namespace sslam

@@ -61,7 +61,6 @@ template <class T, class S>
 concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
   { stage.insert(map, frame, S{}) } -> std::same_as<KeyframeId>;
   stage.begin(map, frame, S{});
-  stage.reset();
 };
 
 }  // namespace sslam

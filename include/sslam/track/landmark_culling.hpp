@@ -3,6 +3,7 @@
 // keyframes.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "sslam/map/map.hpp"
@@ -17,36 +18,29 @@ class LandmarkCulling {
   std::size_t min_observations = 3;  // that a landmark must have when its probation ends
 
   // Tests the landmarks that are still young as of keyframe `now`; others have passed.
-  void cull(Map<S>& map, KeyframeId now) {
-    test(map.points, next_point_, young_points_, now, [&](LandmarkId id) { map.erase_point(id); });
-    test(map.lines, next_line_, young_lines_, now, [&](LandmarkId id) { map.erase_line(id); });
+  void cull(Map<S>& map, KeyframeId now) const {
+    for (KeyframeId k = std::max(0, now - probation); k <= now; ++k) {
+      const Keyframe<S>& keyframe = map.keyframes[map.index(k)];  // young ones are seen from these alone
+      test(keyframe.point_landmarks, map.points, now, [&](LandmarkId id) { map.erase_point(id); });
+      test(keyframe.line_landmarks, map.lines, now, [&](LandmarkId id) { map.erase_line(id); });
+    }
   }
-
-  void reset() { *this = LandmarkCulling{min_found, probation, min_observations}; }
-
-  LandmarkCulling() = default;
 
  private:
-  LandmarkCulling(S found, int keyframes, std::size_t observations)
-      : min_found(found), probation(keyframes), min_observations(observations) {}
-
+  // Erasing takes a landmark out of `seen`, in place.
   template <class Landmarks, class Erase>
-  void test(const Landmarks& landmarks, std::size_t& next, std::vector<LandmarkId>& young, KeyframeId now,
-            Erase erase) {
-    for (; next < landmarks.size(); ++next) young.push_back(static_cast<LandmarkId>(next));
-    std::erase_if(young, [&](LandmarkId id) {
+  void test(const std::vector<LandmarkId>& seen, const Landmarks& landmarks, KeyframeId now,
+            Erase erase) const {
+    for (const LandmarkId& id : seen) {
+      if (id == kNone) continue;
       const auto& landmark = landmarks[Map<S>::index(id)];
-      if (!landmark.alive) return true;
       const int age = now - landmark.first_keyframe;
+      if (age > probation) continue;
       const bool rarely_found = static_cast<S>(landmark.found) < min_found * static_cast<S>(landmark.visible);
       const bool too_few = age >= probation && landmark.observations.size() < min_observations;
-      if (rarely_found || too_few) erase(id);
-      return rarely_found || too_few || age >= probation;
-    });
+      if (rarely_found || too_few) erase(LandmarkId{id});
+    }
   }
-
-  std::size_t next_point_ = 0, next_line_ = 0;  // first landmark not yet on probation
-  std::vector<LandmarkId> young_points_, young_lines_;
 };
 
 }  // namespace sslam

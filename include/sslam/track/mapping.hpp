@@ -55,8 +55,6 @@ class KeyframeMapping {
     optimiser.optimise(map, id);
     frame.read_back(map.keyframes[map.index(id)]);
   }
-
-  void reset() { culling.reset(); }
 };
 
 }  // namespace sslam

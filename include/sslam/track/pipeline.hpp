@@ -195,7 +195,6 @@ class Pipeline {
     log_.clear();
     rotation.reset(map_.world_from_manhattan);
     initialisation.reset();
-    mapping.reset();
     motion_.stop();
     loss.end();
   }
