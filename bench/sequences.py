@@ -67,6 +67,8 @@ def main():
     parser.add_argument("--preset", default="structure")
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--stride", default="1")
+    parser.add_argument("--noise", type=float, default=0, help="added to the images, see degrade.py")
+    parser.add_argument("--blur", type=int, default=0, help="the same")
     a = parser.parse_args()
     extra = ["--preset", a.preset, "--stride", a.stride] + [x for s in a.set for x in ("--set", s)]
     with tempfile.TemporaryDirectory() as scratch:
@@ -74,6 +76,12 @@ def main():
         cases = [(n, a.data / n, s) for n, sources in RECORDINGS.items() if (a.data / n).is_dir() for s in sources]
         for name, path in render_rooms(a.program, folder).items():
             cases += [(name, path, s) for s in ["none", "depth", f"files:{path}/normals", "onnx"]]
+        if a.noise or a.blur:
+            from degrade import degrade_sequence  # needs OpenCV
+            worse = {path: folder / f"worse_{name.replace(' ', '_')}" for name, path, _ in cases}
+            for path, copy in worse.items():
+                degrade_sequence(path, copy, a.noise, a.blur)
+            cases = [(name, worse[path], source) for name, path, source in cases]
         if a.normals:
             cases = [c for c in cases if c[2].split(":")[0] in a.normals.split(",")]
         results = {}
