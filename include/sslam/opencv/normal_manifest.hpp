@@ -148,7 +148,8 @@ inline void read_axes(const cv::FileNode& node, const Reader& reader, NormalMani
 inline void read_output(const cv::FileNode& node, const Reader& reader, NormalManifest& manifest) {
   const std::string kind = node.isMap() ? reader.text(node, "kind", "output") : "";
   if (kind == "normals") {
-    reader.only(node, "output", {"kind", "name", "axes", "signs", "range", "plane_sigma_deg", "mask", "confidence"});
+    reader.only(node, "output",
+                {"kind", "name", "axes", "signs", "range", "plane_sigma_deg", "mask", "confidence"});
     read_axes(node, reader, manifest);
   } else if (kind == "depth" || kind == "inverse_depth") {
     reader.only(node, "output", {"kind", "name", "scale", "plane_sigma_deg"});
