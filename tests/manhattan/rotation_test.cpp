@@ -285,7 +285,7 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
   SECTION("one segment") {
     scene.add_lines(0, 1, 0.002);
     const auto estimate = track(scene, prior);
-    CHECK_FALSE(usable(estimate.status));
+    CHECK(estimate.status == Status::kNoConsensus);
     CHECK(estimate.axes_seen == 0);
     CHECK(is_prior(estimate));
   }
@@ -295,8 +295,10 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     CHECK_FALSE(usable(estimate.status));
     CHECK(estimate.cam_from_manhattan.matrix().allFinite());
   }
-  SECTION("all normals equal") {
-    scene.add_plane(2, 3000, 0);
+  SECTION("all normals equal or two antipodal clusters") {
+    const bool antipodal = GENERATE(false, true);
+    for (int i = 0; i < 3000 && !antipodal; ++i) scene.add_normal(scene.truth.matrix().col(2));
+    if (antipodal) scene.add_plane(2, 3000, 0);
     const auto estimate = track(scene, prior);
     CHECK(estimate.status == Status::kDegenerate);
     CHECK(estimate.axes_seen == 1);
@@ -307,6 +309,13 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     scene.x.assign(500, 0);
     scene.y = scene.z = scene.x;
     CHECK(track(scene, prior).status == Status::kTooFew);
+  }
+  SECTION("all normals NaN") {
+    scene.x.assign(500, kNan);
+    scene.y = scene.z = scene.x;
+    const auto estimate = track(scene, prior);
+    CHECK(estimate.status == Status::kNotFinite);
+    CHECK(is_prior(estimate));
   }
   SECTION("NaN normal") {
     scene.add_plane(0, 900, 2);

@@ -178,6 +178,20 @@ TEST_CASE("a single plane or a single direction of segments is degenerate", "[se
   CHECK_FALSE(usable(by_lines.status));
 }
 
+TEMPLATE_TEST_CASE("one direction alone has no frame for the search", "[search]", float, double) {
+  using S = TestType;
+  Random random(14);
+  const auto kind = GENERATE(0, 1, 2);
+  VoteScene<S> scene(14, test::any_rotation(random));
+  for (int i = 0; i < 3000 && kind == 0; ++i) scene.add_normal(scene.truth.matrix().col(2));
+  if (kind == 1) scene.add_plane(2, 3000, 0);  // two antipodal clusters
+  if (kind == 2) scene.add_lines(0, 1, 0.002);
+  INFO("kind " << kind);
+  const auto estimate = find_manhattan<S>(scene.normals(), scene.lines(), SearchOptions<S>{}, 1);
+  CHECK(estimate.status == (kind == 2 ? Status::kTooFew : Status::kNoConsensus));
+  CHECK(estimate.cam_from_manhattan.matrix().allFinite());
+}
+
 TEMPLATE_TEST_CASE("the search refuses odd inputs", "[search]", float, double) {
   using S = TestType;
   const SearchOptions<S> options;

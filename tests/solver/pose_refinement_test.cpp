@@ -270,6 +270,8 @@ TEMPLATE_TEST_CASE("failure leaves the pose", "", float, double) {
   const PoseScene<S> scene(30, 10, 0, 0.5, 13);
   const auto start = scene.start(1, 0.02, 14);
   refuses(PoseScene<S>(1, 1, 0, 0, 15), start, Status::kTooFew);
+  refuses(PoseScene<S>(0, 0, 0, 0, 15), start, Status::kTooFew);
+  refuses(PoseScene<S>(0, 1, 0, 0, 15), start, Status::kTooFew);
 
   auto broken = scene;
   broken.points[3].pixel.x() = nan;

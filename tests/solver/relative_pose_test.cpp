@@ -183,6 +183,17 @@ TEMPLATE_TEST_CASE("relative pose: pure rotation is low parallax", "", float, do
   CHECK(s.ok == 0);
 }
 
+TEMPLATE_TEST_CASE("relative pose: a camera that stands still is low parallax", "", float, double) {
+  using S = TestType;
+  auto matches = make_two_views({.noise = 0}, 3).as<S>();
+  for (auto& match : matches) match.ray1 = match.ray0;
+  SO3<S> R;
+  Vec3<S> t(0, 0, 1);
+  CHECK(find_relative_pose<S>(matches, {}, 1, R, t).status == Status::kLowParallax);
+  CHECK(refine_relative_pose<S>(matches, R, t, {}).status == Status::kLowParallax);
+  CHECK(t == Vec3<S>(0, 0, 1));
+}
+
 TEMPLATE_TEST_CASE("relative pose: a flat scene is solved where it has one answer and refused elsewhere", "",
                    float, double) {
   const Score s =

@@ -104,6 +104,13 @@ TEMPLATE_TEST_CASE("translation: far points alone are low parallax", "", float, 
     }
 }
 
+TEMPLATE_TEST_CASE("translation: a camera that stands still is low parallax", "", float, double) {
+  using S = TestType;
+  auto matches = make_two_views({.noise = 0}, 3).as<S>();
+  for (auto& match : matches) match.ray1 = match.ray0;
+  CHECK(translation_from_rotation<S>(matches, SO3<S>(), {}, 1).status == Status::kLowParallax);
+}
+
 TEMPLATE_TEST_CASE("translation: points on one epipolar plane are degenerate", "", float, double) {
   CHECK(count_status<TestType>({.noise = 0, .scene = TwoViewOptions::kCollinear}, Status::kDegenerate) ==
         kTrials);
