@@ -332,6 +332,15 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     scene.votes[4].ray.x() = std::numeric_limits<S>::infinity();
     CHECK(is_prior(track(scene, prior)));
   }
+  SECTION("vectors that are no directions") {
+    scene.add_plane(0, 900, 2);
+    scene.add_lines(0, 9, 0.01);
+    const auto long_segment = GENERATE(false, true);
+    (long_segment ? scene.votes[4].plane_normal.x() : scene.x[700]) = S(1e30);
+    const auto estimate = track(scene, prior);
+    CHECK(estimate.status == Status::kNotFinite);
+    CHECK(is_prior(estimate));
+  }
   SECTION("NaN or singular prior") {
     scene.add_plane(0, 900, 2);
     auto bad = prior;
