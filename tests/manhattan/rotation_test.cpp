@@ -7,6 +7,7 @@
 
 #include "sslam/manhattan/rotation.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -350,6 +351,32 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     bad.covariance.setZero();
     CHECK(track(scene, bad).status == Status::kNotFinite);
     CHECK(track(scene, bad).cam_from_manhattan.matrix().allFinite());
+  }
+}
+
+TEMPLATE_TEST_CASE("whatever the votes and the prior the answer is finite", "[rotation]", float, double) {
+  using S = TestType;
+  Random draws(15);
+  VoteScene<S> good(15, test::any_rotation(draws));
+  for (int k = 0; k < 3; ++k) {
+    good.add_plane(k, 300, 4);
+    good.add_lines(k, 20, 0.006);
+  }
+  const auto prior = prior_off_by<S>(good.truth, draws, 3);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    VoteScene<S> scene = good;
+    scene.votes = testing::spoiled<S>(good.votes, random);
+    for (auto* component : {&scene.x, &scene.y, &scene.z})
+      testing::spoil<S>(std::span(*component), static_cast<int>(random.below(2)), random);
+    auto spoiled_prior = prior;
+    if (seed % 3 == 0) testing::spoil<S>(std::span(&spoiled_prior, 1), 1, random);
+    const auto estimate = track(scene, spoiled_prior);
+    INFO("seed " << seed << ", " << name(estimate.status));
+    CHECK(estimate.cam_from_manhattan.matrix().allFinite());
+    if (usable(estimate.status)) CHECK(estimate.covariance.allFinite());
+    if (estimate.status == Status::kNoConsensus)
+      CHECK(estimate.cam_from_manhattan.matrix() == spoiled_prior.cam_from_manhattan.matrix());
   }
 }
 

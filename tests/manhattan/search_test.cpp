@@ -6,6 +6,7 @@
 
 #include "sslam/manhattan/search.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -212,6 +213,28 @@ TEMPLATE_TEST_CASE("the search refuses odd inputs", "[search]", float, double) {
   CHECK(estimate.cam_from_manhattan.matrix().allFinite());
   scene.x[3] = S(1e30);  // a number, but in float its square is none
   CHECK(find_manhattan<S>(scene.normals(), scene.lines(), options, 1).status == Status::kNotFinite);
+}
+
+TEMPLATE_TEST_CASE("whatever the votes the search answers with a finite rotation", "[search]", float,
+                   double) {
+  using S = TestType;
+  Random draws(15);
+  VoteScene<S> good(15, test::any_rotation(draws));
+  for (int k = 0; k < 3; ++k) {
+    good.add_plane(k, 100, 4);
+    good.add_lines(k, 20, 0.006);
+  }
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
+    Random random(seed);
+    VoteScene<S> scene = good;
+    scene.votes = testing::spoiled<S>(good.votes, random);
+    for (auto* component : {&scene.x, &scene.y, &scene.z})
+      testing::spoil<S>(std::span(*component), static_cast<int>(random.below(2)), random);
+    const auto estimate = find_manhattan<S>(scene.normals(), scene.lines(), SearchOptions<S>{}, seed);
+    INFO("seed " << seed << ", " << name(estimate.status));
+    CHECK(estimate.cam_from_manhattan.matrix().allFinite());
+    if (usable(estimate.status)) CHECK(estimate.covariance.allFinite());
+  }
 }
 
 TEMPLATE_TEST_CASE("a handful of random normals is no frame", "[search]", float, double) {

@@ -6,6 +6,7 @@
 #include "solver/two_views.hpp"
 #include "sslam/solver/translation.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 
 namespace sslam {
 namespace {
@@ -193,6 +194,24 @@ TEMPLATE_TEST_CASE("translation: equal seeds give equal bits", "", float, double
   CHECK(a.covariance == b.covariance);
   const auto c = estimate<TestType>(views, {}, 43);
   CHECK(angle_deg(a.t_10.template cast<double>(), c.t_10.template cast<double>()) < 0.5);
+}
+
+TEMPLATE_TEST_CASE("translation: whatever the input the answer is finite or the flags are left", "", float,
+                   double) {
+  using S = TestType;
+  const TwoViews views = make_two_views({.mismatches = 0.3}, 4);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    INFO("seed " << seed);
+    const auto matches = testing::spoiled<S>(views.as<S>(), random);
+    std::vector<std::uint8_t> inliers(matches.size(), 7);
+    const auto answer =
+        translation_from_rotation<S>(matches, views.R_10.template cast<S>(), {}, seed, inliers);
+    if (usable(answer.status))
+      CHECK((answer.t_10.allFinite() && answer.covariance.allFinite()));
+    else
+      CHECK(std::count(inliers.begin(), inliers.end(), 7) == static_cast<int>(inliers.size()));
+  }
 }
 
 }  // namespace sslam
