@@ -111,7 +111,7 @@ void least_squares_by_tiny_solver(benchmark::State& state) {
 
 void sizes(benchmark::internal::Benchmark* b) {
   b->ArgNames({"points", "lines"})->Unit(benchmark::kMicrosecond);
-  b->Args({200, 60})->Args({50, 15})->Args({200, 0})->Args({0, 60});
+  b->Args({200, 60})->Args({50, 15})->Args({1000, 300})->Args({200, 0})->Args({0, 60});
   bench::with_smallest(b);
 }
 

@@ -100,10 +100,19 @@ void points_of_a_pair_by_opencv(benchmark::State& state) {
 }
 #endif
 
-BENCHMARK(point<float>)->ArgName("views")->Arg(2)->Arg(7);
-BENCHMARK(point<double>)->ArgName("views")->Arg(2)->Arg(7);
-BENCHMARK(line<float>)->ArgName("views")->Arg(3)->Arg(7);
-BENCHMARK(line<double>)->ArgName("views")->Arg(3)->Arg(7);
+void views(benchmark::internal::Benchmark* b) {
+  b->ArgName("views")->Arg(3)->Arg(7)->Arg(12);
+  bench::with_smallest(b);
+}
+void views_and_two(benchmark::internal::Benchmark* b) {
+  views(b);
+  b->Arg(2);
+}
+
+BENCHMARK(point<float>)->Apply(views_and_two);
+BENCHMARK(point<double>)->Apply(views_and_two);
+BENCHMARK(line<float>)->Apply(views);
+BENCHMARK(line<double>)->Apply(views);
 BENCHMARK(points_of_a_pair<float>)->Apply(bench::with_smallest);
 BENCHMARK(points_of_a_pair<double>)->Apply(bench::with_smallest);
 #ifdef SSLAM_BENCH_OPENCV

@@ -96,7 +96,13 @@ void find_relative(benchmark::State& state) {
 
 void sizes(benchmark::internal::Benchmark* b) {
   b->ArgNames({"matches", "wrong"})->Unit(benchmark::kMicrosecond);
-  b->Args({500, 30})->Args({500, 0})->Args({100, 30});
+  b->Args({500, 30})
+      ->Args({500, 0})
+      ->Args({50, 30})
+      ->Args({100, 30})
+      ->Args({200, 30})
+      ->Args({1000, 30})
+      ->Args({2000, 30});
   bench::with_smallest(b);
 }
 
