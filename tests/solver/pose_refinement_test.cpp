@@ -326,6 +326,19 @@ TEMPLATE_TEST_CASE("whatever the observations the pose is finite or as before", 
   }
 }
 
+TEST_CASE("rounding costs no steps") {
+  for (std::uint64_t seed = 21; seed < 26; ++seed) {
+    PoseScene<float> coarse(200, 60, 0.1, 0.7, seed);
+    PoseScene<double> fine(200, 60, 0.1, 0.7, seed);
+    auto a = coarse.start(1, 0.05, seed);
+    auto b = fine.start(1, 0.05, seed);
+    const auto in_float = coarse.refine(a);
+    const auto in_double = fine.refine(b);
+    REQUIRE((usable(in_float.status) && usable(in_double.status)));
+    CHECK(in_float.iterations <= in_double.iterations + 3);
+  }
+}
+
 TEST_CASE("the same input gives the same bits") {
   PoseScene<double> scene(200, 60, 0.3, 0.7, 17);
   auto a = scene.start(5, 0.2, 18), b = a;
