@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "plain_mean_shift.hpp"
+#include "smallest.hpp"
 #include "sslam/manhattan/search.hpp"
 #include "support/room_frame.hpp"
 
@@ -74,15 +75,27 @@ void plain(benchmark::State& state) {
       degrees(angle_between(SO3<double>::from_matrix(found), room.current.rotation));
 }
 
-void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"rows", "segments"})->Unit(benchmark::kMicrosecond);
-  bench->Args({192, 200})->Args({48, 200})->Args({192, 0})->Args({0, 200});
+void normals_alone(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"rows", "segments"})->Unit(benchmark::kMicrosecond)->Args({192, 0});
+  bench::with_smallest(b);
+}
+
+void whole_frame(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"rows", "segments"})->Unit(benchmark::kMicrosecond)->Args({192, 200});
+  bench::with_smallest(b);
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  whole_frame(b);
+  b->Args({96, 200})->Args({48, 200})->Args({12, 200})->Args({192, 0})->Args({0, 50})->Args({0, 200});
 }
 
 BENCHMARK(track<float>)->Apply(sizes);
 BENCHMARK(track<double>)->Apply(sizes);
-BENCHMARK(plain)->ArgNames({"rows", "segments"})->Args({192, 0})->Unit(benchmark::kMicrosecond);
-BENCHMARK(find<float>)->ArgNames({"rows", "segments"})->Args({192, 200})->Unit(benchmark::kMicrosecond);
-BENCHMARK(moments<float>)->ArgNames({"rows", "segments"})->Args({192, 0})->Unit(benchmark::kMicrosecond);
+BENCHMARK(plain)->Apply(normals_alone);
+BENCHMARK(find<float>)->Apply(whole_frame);
+BENCHMARK(find<double>)->Apply(whole_frame);
+BENCHMARK(moments<float>)->Apply(normals_alone);
+BENCHMARK(moments<double>)->Apply(normals_alone);
 
 }  // namespace

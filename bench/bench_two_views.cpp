@@ -5,6 +5,7 @@
 
 #include <Eigen/SVD>
 
+#include "smallest.hpp"
 #include "sslam/solver/find_relative_pose.hpp"
 #include "sslam/solver/translation.hpp"
 #include "support/room_frame.hpp"
@@ -93,14 +94,22 @@ void find_relative(benchmark::State& state) {
   pair.report(state, t, summary.status);
 }
 
-void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"matches", "wrong"})->Unit(benchmark::kMicrosecond);
-  bench->Args({500, 30})->Args({500, 0})->Args({100, 30});
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"matches", "wrong"})->Unit(benchmark::kMicrosecond);
+  b->Args({500, 30})
+      ->Args({500, 0})
+      ->Args({50, 30})
+      ->Args({100, 30})
+      ->Args({200, 30})
+      ->Args({1000, 30})
+      ->Args({2000, 30});
+  bench::with_smallest(b);
 }
 
 BENCHMARK(translation<float>)->Apply(sizes);
 BENCHMARK(translation<double>)->Apply(sizes);
 BENCHMARK(translation_by_svd<float>)->Apply(sizes);
+BENCHMARK(translation_by_svd<double>)->Apply(sizes);
 BENCHMARK(refine_relative<float>)->Apply(sizes);
 BENCHMARK(find_relative<float>)->Apply(sizes);
 

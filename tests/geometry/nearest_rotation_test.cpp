@@ -6,6 +6,7 @@
 #include "sslam/core/random.hpp"
 #include "sslam/testing/group_laws.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -60,4 +61,19 @@ TEMPLATE_TEST_CASE("not finite is refused", "", float, double) {
   auto rotation = before;
   CHECK(nearest_rotation(m, rotation) == Status::kNotFinite);
   CHECK(angle_between(rotation, before) == 0);
+}
+
+TEMPLATE_TEST_CASE("whatever the matrix the answer is a rotation or left as it was", "", float, double) {
+  using S = TestType;
+  const auto before = SO3<S>::exp({S(0.1), S(0.2), S(0.3)});
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    INFO("seed " << seed);
+    Mat3<S> m = before.inverse().matrix();
+    spoil<S>(std::span(&m, 1), 1 + static_cast<int>(random.below(9)), random);
+    auto rotation = before;
+    const Mat3<S> R = usable(nearest_rotation(m, rotation)) ? rotation.matrix() : before.matrix();
+    CHECK(R == rotation.matrix());
+    CHECK((R * R.transpose() - Mat3<S>::Identity()).norm() < 20 * std::numeric_limits<S>::epsilon());
+  }
 }

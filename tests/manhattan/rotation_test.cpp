@@ -7,6 +7,7 @@
 
 #include "sslam/manhattan/rotation.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -285,7 +286,7 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
   SECTION("one segment") {
     scene.add_lines(0, 1, 0.002);
     const auto estimate = track(scene, prior);
-    CHECK_FALSE(usable(estimate.status));
+    CHECK(estimate.status == Status::kNoConsensus);
     CHECK(estimate.axes_seen == 0);
     CHECK(is_prior(estimate));
   }
@@ -295,8 +296,10 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     CHECK_FALSE(usable(estimate.status));
     CHECK(estimate.cam_from_manhattan.matrix().allFinite());
   }
-  SECTION("all normals equal") {
-    scene.add_plane(2, 3000, 0);
+  SECTION("all normals equal or two antipodal clusters") {
+    const bool antipodal = GENERATE(false, true);
+    for (int i = 0; i < 3000 && !antipodal; ++i) scene.add_normal(scene.truth.matrix().col(2));
+    if (antipodal) scene.add_plane(2, 3000, 0);
     const auto estimate = track(scene, prior);
     CHECK(estimate.status == Status::kDegenerate);
     CHECK(estimate.axes_seen == 1);
@@ -307,6 +310,13 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     scene.x.assign(500, 0);
     scene.y = scene.z = scene.x;
     CHECK(track(scene, prior).status == Status::kTooFew);
+  }
+  SECTION("all normals NaN") {
+    scene.x.assign(500, kNan);
+    scene.y = scene.z = scene.x;
+    const auto estimate = track(scene, prior);
+    CHECK(estimate.status == Status::kNotFinite);
+    CHECK(is_prior(estimate));
   }
   SECTION("NaN normal") {
     scene.add_plane(0, 900, 2);
@@ -323,6 +333,15 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     scene.votes[4].ray.x() = std::numeric_limits<S>::infinity();
     CHECK(is_prior(track(scene, prior)));
   }
+  SECTION("vectors that are no directions") {
+    scene.add_plane(0, 900, 2);
+    scene.add_lines(0, 9, 0.01);
+    const auto long_segment = GENERATE(false, true);
+    (long_segment ? scene.votes[4].plane_normal.x() : scene.x[700]) = S(1e30);
+    const auto estimate = track(scene, prior);
+    CHECK(estimate.status == Status::kNotFinite);
+    CHECK(is_prior(estimate));
+  }
   SECTION("NaN or singular prior") {
     scene.add_plane(0, 900, 2);
     auto bad = prior;
@@ -332,6 +351,32 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
     bad.covariance.setZero();
     CHECK(track(scene, bad).status == Status::kNotFinite);
     CHECK(track(scene, bad).cam_from_manhattan.matrix().allFinite());
+  }
+}
+
+TEMPLATE_TEST_CASE("whatever the votes and the prior the answer is finite", "[rotation]", float, double) {
+  using S = TestType;
+  Random draws(15);
+  VoteScene<S> good(15, test::any_rotation(draws));
+  for (int k = 0; k < 3; ++k) {
+    good.add_plane(k, 300, 4);
+    good.add_lines(k, 20, 0.006);
+  }
+  const auto prior = prior_off_by<S>(good.truth, draws, 3);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    VoteScene<S> scene = good;
+    scene.votes = testing::spoiled<S>(good.votes, random);
+    for (auto* component : {&scene.x, &scene.y, &scene.z})
+      testing::spoil<S>(std::span(*component), static_cast<int>(random.below(2)), random);
+    auto spoiled_prior = prior;
+    if (seed % 3 == 0) testing::spoil<S>(std::span(&spoiled_prior, 1), 1, random);
+    const auto estimate = track(scene, spoiled_prior);
+    INFO("seed " << seed << ", " << name(estimate.status));
+    CHECK(estimate.cam_from_manhattan.matrix().allFinite());
+    if (usable(estimate.status)) CHECK(estimate.covariance.allFinite());
+    if (estimate.status == Status::kNoConsensus)
+      CHECK(estimate.cam_from_manhattan.matrix() == spoiled_prior.cam_from_manhattan.matrix());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sslam/core/random.hpp"
+#include "sslam/geometry/so3.hpp"
 #include "sslam/manhattan/votes.hpp"
 #include "support/random_draws.hpp"
 

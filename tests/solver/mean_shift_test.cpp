@@ -143,4 +143,6 @@ TEST_CASE("nothing and zero vectors weigh nothing and NaN shows", "[mean_shift]"
   cloud.y[499] = 0;
   cloud.weight[3] = std::numeric_limits<float>::infinity();
   CHECK_FALSE(std::isfinite(total_weight<double>(cloud.weighted())));
+  cloud.x[200] = 1e15F;
+  CHECK_FALSE(std::isfinite(total_weight<double>(cloud.view())));
 }

@@ -9,6 +9,7 @@
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
+#include "support/spoiled_input.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -270,6 +271,8 @@ TEMPLATE_TEST_CASE("failure leaves the pose", "", float, double) {
   const PoseScene<S> scene(30, 10, 0, 0.5, 13);
   const auto start = scene.start(1, 0.02, 14);
   refuses(PoseScene<S>(1, 1, 0, 0, 15), start, Status::kTooFew);
+  refuses(PoseScene<S>(0, 0, 0, 0, 15), start, Status::kTooFew);
+  refuses(PoseScene<S>(0, 1, 0, 0, 15), start, Status::kTooFew);
 
   auto broken = scene;
   broken.points[3].pixel.x() = nan;
@@ -295,6 +298,45 @@ TEMPLATE_TEST_CASE("failure leaves the pose", "", float, double) {
   pose.translation.x() = nan;
   auto whole = scene;
   CHECK(whole.refine(pose).status == Status::kNotFinite);
+}
+
+TEMPLATE_TEST_CASE("whatever the observations the pose is finite or as before", "", float, double) {
+  using S = TestType;
+  const PoseScene<S> good(200, 60, 0.1, 0.7, 19);
+  const auto start = good.start(1, 0.05, 20);
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    INFO("seed " << seed);
+    auto scene = good;
+    scene.points = spoiled<S>(good.points, random);
+    scene.lines = spoiled<S>(good.lines, random);
+    scene.point_inliers.resize(scene.points.size());
+    scene.line_inliers.resize(scene.lines.size());
+    RotationPrior<S> prior{good.truth.rotation, Mat3<S>::Identity() * S(1e4)};
+    if (seed % 2 == 0) spoil<S>(std::span(&prior, 1), 1, random);
+    const auto holds = [&](Status status, const SE3<S>& pose) {
+      INFO(name(status));
+      CHECK((usable(status) ? pose.translation.allFinite() && pose.rotation.matrix().allFinite()
+                            : same_pose(pose, start)));
+    };
+    auto pose = start;
+    holds(scene.refine(pose, {}, &prior).status, pose);
+    pose = start;
+    holds(scene.refine_position(pose).status, pose);
+  }
+}
+
+TEST_CASE("rounding costs no steps") {
+  for (std::uint64_t seed = 21; seed < 26; ++seed) {
+    PoseScene<float> coarse(200, 60, 0.1, 0.7, seed);
+    PoseScene<double> fine(200, 60, 0.1, 0.7, seed);
+    auto a = coarse.start(1, 0.05, seed);
+    auto b = fine.start(1, 0.05, seed);
+    const auto in_float = coarse.refine(a);
+    const auto in_double = fine.refine(b);
+    REQUIRE((usable(in_float.status) && usable(in_double.status)));
+    CHECK(in_float.iterations <= in_double.iterations + 3);
+  }
 }
 
 TEST_CASE("the same input gives the same bits") {

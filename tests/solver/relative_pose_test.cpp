@@ -8,6 +8,7 @@
 #include "sslam/solver/find_relative_pose.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 
 namespace sslam {
 namespace {
@@ -183,6 +184,17 @@ TEMPLATE_TEST_CASE("relative pose: pure rotation is low parallax", "", float, do
   CHECK(s.ok == 0);
 }
 
+TEMPLATE_TEST_CASE("relative pose: a camera that stands still is low parallax", "", float, double) {
+  using S = TestType;
+  auto matches = make_two_views({.noise = 0}, 3).as<S>();
+  for (auto& match : matches) match.ray1 = match.ray0;
+  SO3<S> R;
+  Vec3<S> t(0, 0, 1);
+  CHECK(find_relative_pose<S>(matches, {}, 1, R, t).status == Status::kLowParallax);
+  CHECK(refine_relative_pose<S>(matches, R, t, {}).status == Status::kLowParallax);
+  CHECK(t == Vec3<S>(0, 0, 1));
+}
+
 TEMPLATE_TEST_CASE("relative pose: a flat scene is solved where it has one answer and refused elsewhere", "",
                    float, double) {
   const Score s =
@@ -248,6 +260,38 @@ TEMPLATE_TEST_CASE("relative pose: equal seeds give equal bits", "", float, doub
   REQUIRE(usable(find_relative_pose<S>(matches, {}, 5, Rb, tb).status));
   CHECK(ta == tb);
   CHECK(Ra.matrix() == Rb.matrix());
+}
+
+TEMPLATE_TEST_CASE("relative pose: whatever the input the answer is finite or the state is left", "", float,
+                   double) {
+  using S = TestType;
+  const TwoViews views = make_two_views({.mismatches = 0.3, .baseline = 0.5}, 4);
+  const SO3<S> R_before = views.R_10.template cast<S>();
+  const Vec3<S> t_before(S(0.6), 0, S(0.8));
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const auto matches = testing::spoiled<S>(views.as<S>(), random);
+    std::vector<std::uint8_t> inliers(matches.size(), 7);
+    SO3<S> R = R_before;
+    Vec3<S> t = t_before;
+    const auto holds = [&](Status status) {
+      INFO("seed " << seed << ", " << name(status));
+      if (usable(status)) {
+        CHECK((R.matrix().allFinite() && t.allFinite()));
+      } else {
+        CHECK((R.matrix() == R_before.matrix() && t == t_before));
+        CHECK(std::count(inliers.begin(), inliers.end(), 7) == static_cast<int>(inliers.size()));
+      }
+      R = R_before;
+      t = t_before;
+      std::fill(inliers.begin(), inliers.end(), std::uint8_t{7});
+    };
+    holds(refine_relative_pose<S>(matches, R, t, {}, inliers).status);
+    const auto turn = rotation_from_bearings<S>(matches, {}, seed, inliers);
+    holds(turn.status);
+    if (usable(turn.status)) CHECK((turn.R_10.matrix().allFinite() && turn.covariance.allFinite()));
+    if (seed % 4 == 0) holds(find_relative_pose<S>(matches, {}, seed, R, t, inliers).status);
+  }
 }
 
 }  // namespace sslam

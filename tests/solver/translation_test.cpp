@@ -6,6 +6,7 @@
 #include "solver/two_views.hpp"
 #include "sslam/solver/translation.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 
 namespace sslam {
 namespace {
@@ -104,6 +105,13 @@ TEMPLATE_TEST_CASE("translation: far points alone are low parallax", "", float, 
     }
 }
 
+TEMPLATE_TEST_CASE("translation: a camera that stands still is low parallax", "", float, double) {
+  using S = TestType;
+  auto matches = make_two_views({.noise = 0}, 3).as<S>();
+  for (auto& match : matches) match.ray1 = match.ray0;
+  CHECK(translation_from_rotation<S>(matches, SO3<S>(), {}, 1).status == Status::kLowParallax);
+}
+
 TEMPLATE_TEST_CASE("translation: points on one epipolar plane are degenerate", "", float, double) {
   CHECK(count_status<TestType>({.noise = 0, .scene = TwoViewOptions::kCollinear}, Status::kDegenerate) ==
         kTrials);
@@ -186,6 +194,24 @@ TEMPLATE_TEST_CASE("translation: equal seeds give equal bits", "", float, double
   CHECK(a.covariance == b.covariance);
   const auto c = estimate<TestType>(views, {}, 43);
   CHECK(angle_deg(a.t_10.template cast<double>(), c.t_10.template cast<double>()) < 0.5);
+}
+
+TEMPLATE_TEST_CASE("translation: whatever the input the answer is finite or the flags are left", "", float,
+                   double) {
+  using S = TestType;
+  const TwoViews views = make_two_views({.mismatches = 0.3}, 4);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    INFO("seed " << seed);
+    const auto matches = testing::spoiled<S>(views.as<S>(), random);
+    std::vector<std::uint8_t> inliers(matches.size(), 7);
+    const auto answer =
+        translation_from_rotation<S>(matches, views.R_10.template cast<S>(), {}, seed, inliers);
+    if (usable(answer.status))
+      CHECK((answer.t_10.allFinite() && answer.covariance.allFinite()));
+    else
+      CHECK(std::count(inliers.begin(), inliers.end(), 7) == static_cast<int>(inliers.size()));
+  }
 }
 
 }  // namespace sslam

@@ -8,6 +8,7 @@
 #include "solver/two_views.hpp"
 #include "sslam/solver/triangulate_line.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 
 namespace sslam {
 namespace {
@@ -251,6 +252,22 @@ TEMPLATE_TEST_CASE("line: a view is made from pixels", "", float, double) {
   CHECK(view.segment.start.norm() < S(1e-6));
   CHECK((view.segment.end - Vec2<S>(S(0.1), S(0.1))).norm() < S(1e-6));
   CHECK(std::abs(view.sigma - S(0.004)) < S(1e-6));
+}
+
+TEMPLATE_TEST_CASE("line: whatever the views an answer is finite", "", float, double) {
+  using S = TestType;
+  const auto good = make_scene({.cameras = 8}, 1).as<S>();
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    INFO("seed " << seed);
+    const auto views = testing::spoiled<S>(good, random);
+    const Vec3<S> along(testing::any_number<S>(random), 1, 0);
+    for (const auto& answer : {triangulate_line<S>(views), triangulate_line_along<S>(views, along)}) {
+      if (!usable(answer.status)) continue;
+      CHECK((answer.start.allFinite() && answer.end.allFinite() && answer.covariance.allFinite()));
+      CHECK((answer.line.direction.allFinite() && answer.line.moment.allFinite()));
+    }
+  }
 }
 
 }  // namespace sslam

@@ -7,6 +7,7 @@
 #include "solver/two_views.hpp"
 #include "sslam/solver/triangulate_point.hpp"
 #include "support/catch.hpp"
+#include "support/spoiled_input.hpp"
 
 namespace sslam {
 namespace {
@@ -165,6 +166,17 @@ TEMPLATE_TEST_CASE("point: bad input is refused", "", float, double) {
   auto views = good;
   views[0].sigma = 0;
   CHECK(triangulate_point<S>(views).status == Status::kNotFinite);
+}
+
+TEMPLATE_TEST_CASE("point: whatever the views an answer is finite", "", float, double) {
+  using S = TestType;
+  const auto good = make_scene(8, 0.3, 1, 1).as<S>();
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    INFO("seed " << seed);
+    const auto answer = triangulate_point<S>(testing::spoiled<S>(good, random));
+    if (usable(answer.status)) CHECK((answer.point.allFinite() && answer.covariance.allFinite()));
+  }
 }
 
 }  // namespace sslam

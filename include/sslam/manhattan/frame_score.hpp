@@ -2,6 +2,7 @@
 // How well a frame explains all votes: a log-likelihood over that of directions without any structure.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -13,9 +14,9 @@ namespace sslam {
 
 // The mixture of the three kernels of the given width (radians, each a density on the sphere) and clutter,
 // averaged over the normals and multiplied by `votes`, the number of independent directions they are taken
-// for. Over directions spread evenly, exp of one vote's score has mean 1, so exp(score) bounds the odds of
-// chance (Markov). `gain`, if not null, gets what is lost without each axis. With every > 1 only one block of
-// normals in `every` is read.
+// for, or by how many there are, if those are fewer. Over directions spread evenly, exp of one vote's score
+// has mean 1, so exp(score) bounds the odds of chance (Markov). `gain`, if not null, gets what is lost
+// without each axis. With every > 1 only one block of normals in `every` is read.
 template <Scalar S, Scalar V>
 [[nodiscard]] S score_normals(const DirectionView<V>& normals, const Mat3<S>& cam_from_axes, S width, S votes,
                               std::size_t every = 1, std::array<S, 3>* gain = nullptr) noexcept {
@@ -24,6 +25,7 @@ template <Scalar S, Scalar V>
   using Lanes = detail::DirectionLanes<V>;
   S score = 0;
   S weight = 0;
+  S count = 0;
   std::array<S, 3> lost{};
   const Mat3<V> axes = cam_from_axes.template cast<V>();
   // Kernel mass over the plane is 12 pi h^2 / 5, over the half sphere 2 pi for clutter.
@@ -46,13 +48,14 @@ template <Scalar S, Scalar V>
     }
     const Lanes votes_here = block.weight * valid;
     weight += static_cast<S>(votes_here.sum());
+    count += static_cast<S>((votes_here > V(0)).count());
     const Lanes logs = sum.log();
     score += static_cast<S>((votes_here * logs).sum());
     if (gain == nullptr) continue;
     for (std::size_t k = 0; k < 3; ++k)
       lost[k] += static_cast<S>((votes_here * (logs - (sum - part[k] + kShare).log())).sum());
   }
-  const S scale = weight > S(0) ? votes / weight : S(0);
+  const S scale = weight > S(0) ? std::min(votes, count) / weight : S(0);
   if (gain != nullptr) {
     for (std::size_t k = 0; k < 3; ++k) (*gain)[k] = lost[k] * scale;
   }

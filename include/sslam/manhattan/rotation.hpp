@@ -26,11 +26,13 @@ struct FrameVotes {
       : normals(n), total(total_weight<S>(n)), lines(l) {}
 
   [[nodiscard]] bool empty() const noexcept { return !(total > S(0)) && lines.empty(); }
-  [[nodiscard]] bool finite() const noexcept {
-    S sum = total;
+  // No NaN or infinity, and nothing far too long for a unit vector.
+  [[nodiscard]] bool sound() const noexcept {
+    bool all = std::isfinite(total);
     for (const LineVote<S>& line : lines)
-      sum += line.plane_normal.squaredNorm() + line.ray.squaredNorm() + line.sigma;
-    return std::isfinite(sum);
+      all = all && line.plane_normal.squaredNorm() < S(4) && line.ray.squaredNorm() < S(4) &&
+            std::isfinite(line.sigma);
+    return all;
   }
 };
 
@@ -70,9 +72,10 @@ void assign_lines_of(const ManhattanEstimate<S>& estimate, std::span<const LineV
 //
 // kOk: every rotation is observed by votes. kDegenerate: only some are (one axis); the rest keeps the prior's
 // value and covariance. kTooFew: no votes. kNoConsensus: no axis stands out, or the votes would turn the
-// prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior, or a prior whose covariance
-// has no inverse. With the last three the answer is the prior (the identity where that is not finite). Entry
-// i of `axis_of`, if it is not empty, becomes the axis (0, 1, 2) of segment i, or -1.
+// prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior, a direction longer than 2 (it
+// should be 1), or a prior whose covariance has no inverse. With the last three the answer is the prior (the
+// identity where that is not finite). Entry i of `axis_of`, if it is not empty, becomes the axis (0, 1, 2) of
+// segment i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> track_manhattan(const NormalView<V>& normals,
                                                    std::span<const LineVote<S>> lines,
@@ -85,7 +88,7 @@ template <Scalar S, Scalar V = S>
   Mat3<S> information;
   if (!inverse_of<S, 3>(prior.covariance, information)) return detail::refusal(Status::kNotFinite, prior);
   const detail::FrameVotes<S, V> votes(normals, lines);
-  if (!votes.finite()) return detail::refusal(Status::kNotFinite, prior);
+  if (!votes.sound()) return detail::refusal(Status::kNotFinite, prior);
   if (votes.empty()) return detail::refusal(Status::kTooFew, prior);
 
   LineShares<S> shares;

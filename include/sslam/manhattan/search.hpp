@@ -135,9 +135,10 @@ template <Scalar S>
 // is the volume of SO(3), up to the 24 namings, over that of the answer's covariance. Two planes that happen
 // to meet at a right angle, within what their normals can tell, are a frame like any other.
 //
-// kTooFew: no votes. kDegenerate: only one axis stands out. kNoConsensus: no frame does, or two that differ
-// do equally well (see ambiguity). kNotFinite: a NaN or infinity in the votes. With these the rotation is a
-// guess, not to be used. Entry i of `axis_of`, if it is not empty, becomes the axis of segment i, or -1.
+// kTooFew: no votes. kDegenerate: at most one axis stands out, as with a single plane in view. kNoConsensus:
+// several directions do but no frame does, or two that differ do equally well (see ambiguity). kNotFinite: as
+// in track_manhattan. With these the rotation is a guess, not to be used. Entry i of `axis_of`, if it is not
+// empty, becomes the axis of segment i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> find_manhattan(const NormalView<V>& normals,
                                                   std::span<const LineVote<S>> lines,
@@ -146,7 +147,7 @@ template <Scalar S, Scalar V = S>
   constexpr std::size_t kRefined = 16;
   for (std::int8_t& axis : axis_of) axis = -1;
   const detail::FrameVotes<S, V> votes(normals, lines);
-  if (!votes.finite()) return detail::refusal<S>(Status::kNotFinite);
+  if (!votes.sound()) return detail::refusal<S>(Status::kNotFinite);
   if (!(votes.total > S(0)) && lines.size() < 3) return detail::refusal<S>(Status::kTooFew);
 
   const detail::NormalSample<S, 2048> sample(normals);
@@ -167,7 +168,8 @@ template <Scalar S, Scalar V = S>
     const S by_normals = score_normals(view, axes, options.rank_width, options.rotation.normal_votes, 4);
     candidates.offer(frame, by_normals + score_lines<S>(sharp, axes, options.rank_line_floor));
   });
-  if (candidates.size() == 0) return detail::refusal<S>(Status::kNoConsensus);
+  if (candidates.size() == 0)
+    return detail::refusal<S>(directions.size() == 1 ? Status::kDegenerate : Status::kNoConsensus);
 
   FrameList refined(same);
   const detail::FrameVotes<S, S> thin(view, lines);

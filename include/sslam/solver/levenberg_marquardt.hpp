@@ -130,6 +130,7 @@ template <Manifold X, class Problem, class S = ScalarOf<X>>
                                              const LmOptions& options = {}) noexcept {
   constexpr int D = X::kDof;
   constexpr S kMinDamping = S(1e-9), kMaxDamping = S(1e6);
+  constexpr S kRounding = 32 * std::numeric_limits<S>::epsilon();
   LmSummary<S, D> summary;
   detail::Linearized<S, D> current(problem, x);
   summary.initial_cost = current.value.cost;
@@ -163,6 +164,8 @@ template <Manifold X, class Problem, class S = ScalarOf<X>>
     const detail::Linearized<S, D> tried(problem, trial);
     comparable = tried.value.count == current.value.count && tried.finite();
     if (!comparable || !(tried.value.cost < current.value.cost)) {
+      // A win that drowns in the rounding of the cost: no damping would show it.
+      if (comparable && promised <= kRounding * current.value.cost) return finish(Status::kOk);
       damping *= 10;
       continue;
     }

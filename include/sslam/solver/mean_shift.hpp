@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "sslam/core/types.hpp"
 
@@ -126,18 +127,22 @@ template <Scalar S, Scalar V>
   return sums;
 }
 
-// Sum of w |n|^2: the total weight of unit directions, and NaN or infinite as soon as one input is.
+// Sum of w |n|^2: the total weight of unit directions, where zero vectors count as nothing. NaN or infinite
+// as soon as one input is, and infinite where one is longer than 2: not a direction.
 template <Scalar S, Scalar V>
 [[nodiscard]] S total_weight(const DirectionView<V>& votes, std::size_t every = 1) noexcept {
   S total = 0;
+  detail::DirectionLanes<V> longest = detail::DirectionLanes<V>::Zero();
   detail::DirectionBlock<V> block;
   block.weight.setOnes();
   const std::size_t step = detail::kDirectionBlock * std::max<std::size_t>(every, 1);
   for (std::size_t first = 0; first < votes.size; first += step) {
     detail::load_directions(votes, first, block);
-    total += static_cast<S>((block.weight * (block.x.square() + block.y.square() + block.z.square())).sum());
+    const detail::DirectionLanes<V> squared = block.x.square() + block.y.square() + block.z.square();
+    longest = longest.max(squared);
+    total += static_cast<S>((block.weight * squared).sum());
   }
-  return total;
+  return longest.maxCoeff() > V(4) ? std::numeric_limits<S>::infinity() : total;
 }
 
 // The variance s^2 per component of votes whose kernel-weighted variance is v: under a Gaussian of width h,
