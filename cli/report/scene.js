@@ -1,1 +1,246 @@
-// x
+// SPDX-License-Identifier: BSD-3-Clause
+// The 3D view: map, paths and cameras, drawn only when something has changed.
+
+// A context that a software renderer can serve too; null without WebGL.
+function webglContext(canvas) {
+  if (typeof THREE === "undefined") return null;
+  const probe = document.createElement("canvas").getContext("webgl2");
+  if (!probe) return null;
+  const info = probe.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(probe.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  const software = /swiftshader|llvmpipe|software|basic render/i.test(name);
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  const context = canvas.getContext("webgl2", { antialias: !software, alpha: false, powerPreference: "high-performance" });
+  return context && { context, software };
+}
+
+class Scene3D {
+  constructor(canvas, { context, software }) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
+    this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(50, 1, 0.01, 1000);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => this.request());
+    this.world = new THREE.Group();  // metres where the scale is known; y up, as the map's y points down
+    this.world.rotation.x = Math.PI;
+    this.world.scale.setScalar(run.scale);
+    this.scene.add(this.world);
+    this.layers = {};
+    this.follows = false;
+    this.measure();
+    this.build();
+    this.home();
+    shown.listen(() => this.showFrame());
+    redraws.push(() => this.restyle());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    this.resize();
+    this.restyle();
+  }
+
+  measure() {
+    const { low, high } = boxOfRun();
+    const at = (corner) => this.world.localToWorld(new THREE.Vector3(...corner));
+    this.world.updateMatrixWorld();
+    this.middle = at(low).add(at(high)).multiplyScalar(0.5);
+    this.radius = Math.max(at(low).distanceTo(at(high)) / 2, 0.1);
+    this.floor = high[1];
+    this.camera.near = this.radius / 500;
+    this.camera.far = this.radius * 60;
+  }
+
+  add(name, object) {
+    this.layers[name] = object;
+    object.frustumCulled = false;
+    this.world.add(object);
+    return object;
+  }
+
+  static geometry(positions, colours) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    if (colours) geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+    return geometry;
+  }
+
+  build() {
+    const plain = () => new THREE.LineBasicMaterial();
+    const coloured = () => new THREE.LineBasicMaterial({ vertexColors: true });
+    this.add("grid", new THREE.LineSegments(Scene3D.geometry(this.gridEnds()), plain()));
+    this.add("points", new THREE.Points(Scene3D.geometry(run.points), new THREE.PointsMaterial({ size: 2, sizeAttenuation: false })));
+    const ends = run.lines.ends;
+    this.add("lines", new THREE.LineSegments(Scene3D.geometry(ends, new Float32Array(ends.length)), coloured()));
+    this.pathRows = [];  // the later frame of each step of the path
+    const steps = [];
+    for (let row = 1; row < run.frames.count; ++row) {
+      if (!run.hasPose(row) || !run.hasPose(row - 1)) continue;
+      this.pathRows.push(row);
+      for (const r of [row - 1, row]) steps.push(...run.poses.subarray(7 * r, 7 * r + 3));
+    }
+    this.add("path", new THREE.LineSegments(Scene3D.geometry(new Float32Array(steps), new Float32Array(steps.length)), coloured()));
+    if (run.truth) this.add("truth", new THREE.Line(Scene3D.geometry(run.truth.positions), plain()));
+    const size = 0.05 * this.radius / run.scale;
+    const small = [];
+    for (let i = 0; i < run.keyframes.length; i += 7) small.push(...this.frustum(run.keyframes.subarray(i, i + 7), 0.6 * size));
+    this.add("keyframes", new THREE.LineSegments(Scene3D.geometry(new Float32Array(small)), plain()));
+    this.eye = this.add("eye", new THREE.LineSegments(Scene3D.geometry(new Float32Array(this.frustum([0, 0, 0, 0, 0, 0, 1], 1.6 * size))), plain()));
+  }
+
+  // A camera as 8 segments, `size` deep.
+  frustum([x, y, z, qx, qy, qz, qw], size) {
+    const [fx, fy] = run.settings.pinhole ?? [1, 1];
+    const [width, height] = run.settings.image_size ?? [1, 0.75];
+    const w = Math.min(Math.max(width / 2 / fx, 0.2), 2), h = Math.min(Math.max(height / 2 / fy, 0.2), 2);
+    const turn = new THREE.Quaternion(qx, qy, qz, qw);
+    const corner = (u, v) => new THREE.Vector3(u * w, v * h, 1).multiplyScalar(size).applyQuaternion(turn).add(new THREE.Vector3(x, y, z)).toArray();
+    const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+    return corners.flatMap((c, i) => [x, y, z, ...c, ...c, ...corners[(i + 1) % 4]]);
+  }
+
+  // Squares of 1 m (or of a power of ten that suits the map) at the height of the lowest points.
+  gridEnds() {
+    const extent = 2 * this.radius / run.scale;
+    const step = run.metres_per_unit && this.radius < 40 ? 1 / run.scale : 10 ** Math.floor(Math.log10(extent / 4));
+    const { low, high } = boxOfRun();
+    const [left, near] = [0, 2].map((a) => step * (Math.floor(low[a] / step) - 1));
+    const [right, far] = [0, 2].map((a) => step * (Math.ceil(high[a] / step) + 1));
+    const ends = [];
+    for (let x = left; x <= right + step / 2; x += step) ends.push(x, this.floor, near, x, this.floor, far);
+    for (let z = near; z <= far + step / 2; z += step) ends.push(left, this.floor, z, right, this.floor, z);
+    return new Float32Array(ends);
+  }
+
+  restyle() {
+    const ink = (name) => new THREE.Color(colour(name));
+    this.scene.background = ink("stage");
+    for (const [name, from] of [["grid", "grid"], ["points", "points"], ["truth", "truth"], ["keyframes", "accent"], ["eye", "accent"]])
+      this.layers[name]?.material.color.copy(ink(from));
+    const axes = [...kAxes, "none"].map(ink);
+    const lines = this.layers.lines.geometry.attributes.color;
+    run.lines.axes.forEach((axis, i) => {
+      const { r, g, b } = axes[axis < 0 ? 3 : axis];
+      lines.array.set([r, g, b, r, g, b], 6 * i);
+    });
+    lines.needsUpdate = true;
+    const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
+    const path = this.layers.path.geometry.attributes.color;
+    this.pathRows.forEach((row, i) => {
+      const { r, g, b } = states[run.state(row)] ?? states.manhattan;
+      path.array.set([r, g, b, r, g, b], 6 * i);
+    });
+    path.needsUpdate = true;
+    this.showFrame();
+  }
+
+  setLayer(name, on) {
+    if (this.layers[name]) this.layers[name].visible = on;
+    this.request();
+  }
+
+  showFrame() {
+    const posed = run.frames.count > 0 && run.hasPose(shown.row);
+    this.eye.visible = posed;
+    if (posed) {
+      const [x, y, z, qx, qy, qz, qw] = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
+      this.eye.position.set(x, y, z);
+      this.eye.quaternion.set(qx, qy, qz, qw);
+      if (this.follows) this.chase();
+    }
+    this.request();
+  }
+
+  setFollow(on) {
+    this.follows = on;
+    if (on) this.behind();
+    else this.home();
+  }
+
+  // Where the shown camera stands, and which way it looks over the floor.
+  heading() {
+    const pose = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
+    const at = this.world.localToWorld(new THREE.Vector3(pose[0], pose[1], pose[2]));
+    const [x, , z] = forwardOf(pose);
+    return { at, angle: Math.atan2(x, -z) };
+  }
+
+  behind() {
+    if (run.frames.count === 0 || !run.hasPose(shown.row)) return;
+    const { at, angle } = this.heading();
+    this.angle = angle;
+    const back = 0.45 * this.radius;
+    this.controls.target.copy(at);
+    this.camera.position.set(at.x - back * Math.sin(angle), at.y + 0.45 * back, at.z - back * Math.cos(angle));
+    this.controls.update();
+    this.request();
+  }
+
+  // Goes along with the shown camera and turns with it, from wherever the user looks at it.
+  chase() {
+    const { at, angle } = this.heading();
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyAxisAngle(new THREE.Vector3(0, 1, 0), angle - (this.angle ?? angle));
+    this.angle = angle;
+    this.controls.target.copy(at);
+    this.camera.position.copy(at).add(offset);
+    this.controls.update();
+  }
+
+  home() {
+    const reach = 1.9 * this.radius * Math.max(1, 0.85 / this.camera.aspect);
+    this.controls.target.copy(this.middle);
+    this.camera.position.copy(this.middle).add(new THREE.Vector3(-0.35, 0.75, 0.62).multiplyScalar(reach));
+    this.controls.update();
+    this.request();
+  }
+
+  reset() {
+    if (this.follows) this.behind();
+    else this.home();
+  }
+
+  // right and up in radians, nearer as a factor.
+  orbit(right, up, nearer) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const length = offset.length() * nearer;
+    const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) - up, 0.05), Math.PI - 0.05);
+    const azimuth = Math.atan2(offset.x, offset.z) + right;
+    offset.set(Math.sin(polar) * Math.sin(azimuth), Math.cos(polar), Math.sin(polar) * Math.cos(azimuth)).multiplyScalar(length);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.request();
+  }
+
+  key(event) {
+    const turns = { ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.08, 1], ArrowDown: [0, -0.08, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1.1] };
+    const turn = turns[event.key];
+    if (!turn || event.ctrlKey || event.metaKey) return;
+    this.orbit(...turn);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (width === 0 || height === 0) return;
+    const first = this.width === undefined;
+    this.width = width;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (first) this.home();
+    this.draw();
+  }
+
+  request() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    this.waiting = false;
+    this.renderer.render(this.scene, this.camera);
+  }
+}
