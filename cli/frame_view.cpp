@@ -15,12 +15,12 @@ namespace sslam::cli {
 namespace {
 
 // Chosen so that 1000 frames stay within 15 MB as text.
-constexpr int kWidth = 320;
-constexpr int kQuality = 55;
+constexpr int kWidth = 304;
+constexpr int kQuality = 45;
 constexpr int kNormalQuality = 70;
-constexpr std::size_t kOtherPoints = 150;  // that see nothing of the map
-constexpr std::size_t kLines = 120;
-constexpr std::size_t kNormals = 200;
+constexpr std::size_t kOtherPoints = 100;  // that see nothing of the map
+constexpr std::size_t kLines = 100;
+constexpr std::size_t kNormals = 160;
 
 std::vector<unsigned char> jpeg(const cv::Mat& image, int quality) {
   std::vector<unsigned char> bytes;

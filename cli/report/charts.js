@@ -133,7 +133,7 @@ function showCharts() {
   }
   if (frames.has("point_inliers"))
     new Chart("Map seen again", [{ label: "points", ink: "accent", values: column("point_inliers") }, { label: "lines", ink: "x", values: column("line_inliers") }]);
-  if (frames.has("axes_seen")) new Chart("Manhattan axes seen", [{ label: "of 3", ink: "manhattan", values: column("axes_seen") }], { whole: 3 });
+  if (frames.has("axes_seen")) new Chart("Manhattan axes seen", [{ label: "seen", ink: "manhattan", values: column("axes_seen"), unit: "of 3" }], { whole: 3 });
   if (frames.has("frame_ms"))
     new Chart("Time for a frame", [{ label: "all", ink: "accent", values: column("frame_ms"), unit: "ms" }, { label: "tracking", ink: "x", values: column("tracking_ms"), unit: "ms" }]);
   if (frames.has("points"))

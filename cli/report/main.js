@@ -136,15 +136,25 @@ function listenToKeys() {
   });
 }
 
+// A part of the page that fails, for figures that are of another kind than expected, leaves the others alone.
+function part(name, make) {
+  try {
+    make();
+  } catch (error) {
+    const text = `The ${name} cannot be shown: ${error.message}.`;
+    byId("story").append(element("li", {}, element("i", { style: "background: var(--lost)" }), element("span", {}, text)));
+  }
+}
+
 function main() {
   setTheme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   byId("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-  showTitle();
-  showSummary();
-  showStory();
-  showCharts();
-  showTimings();
-  showSettings();
+  part("title", showTitle);
+  part("summary", showSummary);
+  part("story", showStory);
+  part("curves", showCharts);
+  part("times of the stages", showTimings);
+  part("settings", showSettings);
   byId("slider").max = Math.max(run.frames.count - 1, 0);
   byId("slider").addEventListener("input", (event) => shown.set(Number(event.target.value)));
   byId("play").addEventListener("click", () => player.toggle());
@@ -156,7 +166,7 @@ function main() {
   document.querySelectorAll("details").forEach((details) => { details.hidden = details.querySelector("pre, div").textContent === ""; });
   window.addEventListener("resize", redrawAll);
   document.addEventListener("DOMContentLoaded", () => {
-    window.views = new Views();
+    part("pictures", () => { window.views = new Views(); });
     redrawAll();
     document.documentElement.dataset.ready = "yes";
   });

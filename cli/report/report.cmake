@@ -9,8 +9,7 @@ set(three_licence "")
 find_program(SSLAM_NPM npm DOC "Fetches three.js for the 3D view of sslam's reports")
 find_program(SSLAM_NODE node nodejs)
 if(SSLAM_NPM AND SSLAM_NODE)
-  file(COPY "${report_source}/package.json" "${report_source}/package-lock.json" "${report_source}/three_parts.js"
-       DESTINATION "${report_build}")
+  file(COPY "${report_source}/package.json" "${report_source}/package-lock.json" DESTINATION "${report_build}")
   file(SHA256 "${report_source}/package-lock.json" wanted)
   set(installed "")
   if(EXISTS "${report_build}/installed")
@@ -19,7 +18,7 @@ if(SSLAM_NPM AND SSLAM_NODE)
   if(NOT installed STREQUAL wanted)
     message(STATUS "Fetching three.js for the report's 3D view")
     execute_process(COMMAND "${SSLAM_NPM}" ci --ignore-scripts --no-audit --no-fund WORKING_DIRECTORY "${report_build}"
-                    RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE reason)
+                    TIMEOUT 120 RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
     if(NOT failed)
       file(WRITE "${report_build}/installed" "${wanted}")
       set(installed "${wanted}")
@@ -30,6 +29,7 @@ if(SSLAM_NPM AND SSLAM_NODE)
     set(three_licence "${report_build}/node_modules/three/LICENSE")
     add_custom_command(
       OUTPUT "${three}"
+      COMMAND ${CMAKE_COMMAND} -E copy "${report_source}/three_parts.js" "${report_build}"
       COMMAND "${report_build}/node_modules/.bin/esbuild" three_parts.js --bundle --minify --format=iife
               --global-name=THREE --legal-comments=none --log-level=warning --outfile=three.js
       WORKING_DIRECTORY "${report_build}"

@@ -58,20 +58,41 @@ class Scene3D {
     return object;
   }
 
-  static geometry(positions, colours) {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-    if (colours) geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
-    return geometry;
+  static geometry(positions) {
+    return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  }
+
+  // A path as the segments between its points.
+  static joined(positions) {
+    const ends = [];
+    for (let i = 3; i < positions.length; i += 3) ends.push(...positions.subarray(i - 3, i + 3));
+    return new Float32Array(ends);
+  }
+
+  // Segments `width` pixels wide, which plain lines of WebGL cannot be; coloured: each in a colour of its own.
+  addWide(name, ends, width, coloured) {
+    if (ends.length === 0) return;
+    const geometry = new THREE.LineSegmentsGeometry().setPositions(ends);
+    if (coloured) geometry.setColors(new Float32Array(ends.length));
+    this.add(name, new THREE.LineSegments2(geometry, new THREE.LineMaterial({ linewidth: width, vertexColors: coloured })));
+  }
+
+  // colourOf(i): of the i-th segment.
+  paint(name, count, colourOf) {
+    if (!this.layers[name]) return;
+    const { data } = this.layers[name].geometry.attributes.instanceColorStart;
+    for (let i = 0; i < count; ++i) {
+      const { r, g, b } = colourOf(i);
+      data.array.set([r, g, b, r, g, b], 6 * i);
+    }
+    data.needsUpdate = true;
   }
 
   build() {
     const plain = () => new THREE.LineBasicMaterial();
-    const coloured = () => new THREE.LineBasicMaterial({ vertexColors: true });
     this.add("grid", new THREE.LineSegments(Scene3D.geometry(this.gridEnds()), plain()));
     this.add("points", new THREE.Points(Scene3D.geometry(run.points), new THREE.PointsMaterial({ size: 2, sizeAttenuation: false })));
-    const ends = run.lines.ends;
-    this.add("lines", new THREE.LineSegments(Scene3D.geometry(ends, new Float32Array(ends.length)), coloured()));
+    this.addWide("lines", run.lines.ends, 2, true);
     this.pathRows = [];  // the later frame of each step of the path
     const steps = [];
     for (let row = 1; row < run.frames.count; ++row) {
@@ -79,8 +100,8 @@ class Scene3D {
       this.pathRows.push(row);
       for (const r of [row - 1, row]) steps.push(...run.poses.subarray(7 * r, 7 * r + 3));
     }
-    this.add("path", new THREE.LineSegments(Scene3D.geometry(new Float32Array(steps), new Float32Array(steps.length)), coloured()));
-    if (run.truth) this.add("truth", new THREE.Line(Scene3D.geometry(run.truth.positions), plain()));
+    this.addWide("path", new Float32Array(steps), 3, true);
+    if (run.truth) this.addWide("truth", Scene3D.joined(run.truth.positions), 1.5, false);
     const size = 0.05 * this.radius / run.scale;
     const small = [];
     for (let i = 0; i < run.keyframes.length; i += 7) small.push(...this.frustum(run.keyframes.subarray(i, i + 7), 0.6 * size));
@@ -118,19 +139,9 @@ class Scene3D {
     for (const [name, from] of [["grid", "grid"], ["points", "points"], ["truth", "truth"], ["keyframes", "accent"], ["eye", "accent"]])
       this.layers[name]?.material.color.copy(ink(from));
     const axes = [...kAxes, "none"].map(ink);
-    const lines = this.layers.lines.geometry.attributes.color;
-    run.lines.axes.forEach((axis, i) => {
-      const { r, g, b } = axes[axis < 0 ? 3 : axis];
-      lines.array.set([r, g, b, r, g, b], 6 * i);
-    });
-    lines.needsUpdate = true;
+    this.paint("lines", run.lines.axes.length, (i) => axes[run.lines.axes[i]] ?? axes[3]);
     const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
-    const path = this.layers.path.geometry.attributes.color;
-    this.pathRows.forEach((row, i) => {
-      const { r, g, b } = states[run.state(row)] ?? states.manhattan;
-      path.array.set([r, g, b, r, g, b], 6 * i);
-    });
-    path.needsUpdate = true;
+    this.paint("path", this.pathRows.length, (i) => states[run.state(this.pathRows[i])] ?? states.manhattan);
     this.showFrame();
   }
 

@@ -5,7 +5,6 @@ export {
   BufferGeometry,
   Color,
   Group,
-  Line,
   LineBasicMaterial,
   LineSegments,
   PerspectiveCamera,
@@ -16,4 +15,7 @@ export {
   Vector3,
   WebGLRenderer,
 } from "three";
+export { LineMaterial } from "three/addons/lines/LineMaterial.js";
+export { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+export { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";

@@ -98,9 +98,9 @@ class Page {
     return answer.result.value;
   }
 
-  // Until the expression is true; the test's own time limit ends what never is.
+  // Until the expression is true, or the page complains; the test's own time limit ends what never is.
   async until(expression) {
-    while (!(await this.run(`Boolean(${expression})`))) await new Promise((resolve) => setTimeout(resolve, 50));
+    while (this.complaints.length === 0 && !(await this.run(`Boolean(${expression})`))) await new Promise((resolve) => setTimeout(resolve, 50));
   }
 
   async press(key, modifiers = 0) {
