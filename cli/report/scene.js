@@ -14,9 +14,12 @@ function webglContext(canvas) {
   return context && { context, software };
 }
 
+const kPointsInMotion = 10000;
+
 class Scene3D {
   constructor(canvas, { context, software }) {
     this.canvas = canvas;
+    this.software = software;
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
     this.scene = new THREE.Scene();
@@ -62,6 +65,18 @@ class Scene3D {
     return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(positions, 3));
   }
 
+  // The same points in an order whose beginning is spread over all of them.
+  static mixed(positions) {
+    const count = positions.length / 3;
+    const step = [7919, 7907].find((prime) => count % prime !== 0) ?? 1;
+    const result = new Float32Array(positions.length);
+    for (let i = 0; i < count; ++i) {
+      const from = 3 * ((i * step) % count);
+      result.set(positions.subarray(from, from + 3), 3 * i);
+    }
+    return result;
+  }
+
   // A path as the segments between its points.
   static joined(positions) {
     const ends = [];
@@ -91,7 +106,7 @@ class Scene3D {
   build() {
     const plain = () => new THREE.LineBasicMaterial();
     this.add("grid", new THREE.LineSegments(Scene3D.geometry(this.gridEnds()), plain()));
-    this.add("points", new THREE.Points(Scene3D.geometry(run.points), new THREE.PointsMaterial({ size: 2, sizeAttenuation: false })));
+    this.add("points", new THREE.Points(Scene3D.geometry(Scene3D.mixed(run.points)), new THREE.PointsMaterial({ size: 2, sizeAttenuation: false })));
     this.addWide("lines", run.lines.ends, 2, true);
     this.pathRows = [];  // the later frame of each step of the path
     const steps = [];
@@ -250,8 +265,17 @@ class Scene3D {
     requestAnimationFrame(() => this.draw());
   }
 
-  draw() {
+  // A software renderer draws some of the points while the view moves, all of them when it rests.
+  draw(resting = !this.software) {
     this.waiting = false;
+    clearTimeout(this.rest);
+    const { geometry } = this.layers.points;
+    const abridged = !resting && geometry.attributes.position.count > kPointsInMotion;
+    geometry.setDrawRange(0, abridged ? kPointsInMotion : Infinity);
     this.renderer.render(this.scene, this.camera);
+    if (!this.software) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits: else frames would queue up
+    if (abridged) this.rest = setTimeout(() => this.draw(true), 200);
   }
 }
