@@ -86,7 +86,9 @@ function tellStory() {
   if (frames.count === 0) items.push({ state: "lost", text: "frames.csv holds no frame: nothing is shown over time." });
   if (metrics.interrupted) items.push({ state: "lost", text: `The run was interrupted after ${countOf(frames.count, "frame")}.` });
   if (frames.has("state")) {
-    const spans = spansOf(frames.count, (row) => (["lost", "fallback", "initialising"].includes(run.state(row)) ? run.state(row) : null));
+    // A frame that is found again says so where the loss is told.
+    const noted = (row) => ["lost", "fallback", "initialising"].includes(run.state(row)) && run.reason(row) !== "relocalised";
+    const spans = spansOf(frames.count, (row) => (noted(row) ? run.state(row) : null));
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
     items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 8, "of the same"));
   }
