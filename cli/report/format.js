@@ -25,6 +25,8 @@ function figure(value) {
   return String(Number(number.toPrecision(3)));
 }
 
+function clock(row) { return `${run.seconds(row).toFixed(2)} s`; }
+
 function countOf(number, noun) { return `${number} ${noun}${number === 1 ? "" : "s"}`; }
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }

@@ -38,15 +38,20 @@ function showTitle() {
 // The 3D view where the browser can, else the map from above.
 function makeView() {
   const canvas = byId("canvas");
+  if (run.points.length + run.lines.axes.length === 0 && !run.trajectoryThere) notice("No map and no path to see: the list below says why.");
   const webgl = webglContext(canvas);
   if (webgl) return new Scene3D(canvas, webgl);
   byId("view").classList.add("flat");
   canvas.setAttribute("aria-label", "Map from above");
-  byId("notice").hidden = false;
-  byId("notice").textContent = typeof THREE === "undefined"
+  notice(typeof THREE === "undefined"
     ? "This sslam was built without npm, so without the 3D view: the map is seen from above."
-    : "This browser has no WebGL: the map is seen from above.";
+    : "This browser has no WebGL: the map is seen from above.");
   return new TopView(canvas);
+}
+
+function notice(text) {
+  byId("notice").hidden = false;
+  byId("notice").append(element("div", {}, text));
 }
 
 function showLayers(view) {
@@ -62,7 +67,7 @@ function showLayers(view) {
   follow.classList.add("mode");
   follow.setAttribute("aria-pressed", "false");
   follow.hidden = !run.trajectoryThere;
-  byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.reset() }, "Reset view"));
+  byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.reset() }, "Reset"));
 }
 
 function showFrameText(row) {
@@ -72,7 +77,7 @@ function showFrameText(row) {
   byId("frame-name").textContent = `${index} · ${image}`;
   byId("frame-state").replaceChildren(element("span", { className: "swatch", style: `color: var(--${state})` }),
     [state + (reason ? `: ${reason}` : ""), frames.number("keyframe", row) ? "keyframe" : ""].filter(Boolean).join(" · "));
-  byId("clock").replaceChildren(`${figure(run.seconds(row))} s`, element("span", { className: "long" }, ` · ${row + 1} of ${frames.count}`));
+  byId("clock").replaceChildren(clock(row), element("span", { className: "long" }, ` · ${row + 1} of ${frames.count}`));
   byId("slider").value = row;
   byId("slider").setAttribute("aria-valuetext", `frame ${index}, ${state}`);
 }

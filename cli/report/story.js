@@ -27,10 +27,9 @@ function reasonsIn(span) {
 }
 
 function whereOf(span) {
-  const from = figure(run.seconds(span.from));
-  if (span.from === span.to) return `frame ${run.frames.text("index", span.from)}, at ${from} s`;
+  if (span.from === span.to) return `frame ${run.frames.text("index", span.from)}, at ${clock(span.from)}`;
   return `frames ${run.frames.text("index", span.from)} to ${run.frames.text("index", span.to)}, ` +
-    `${from} to ${figure(run.seconds(span.to))} s`;
+    `${clock(span.from)} to ${clock(span.to)}`;
 }
 
 function because(span) {

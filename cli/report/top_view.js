@@ -106,7 +106,7 @@ class TopView {
 // Layers that can be hidden, with the colour they are known by; "" has that of the axes.
 const kLayers = [
   { name: "points", label: "Points", ink: "points", there: () => run.points.length > 0 },
-  { name: "lines", label: "Lines by axis", ink: "", there: () => run.lines.axes.length > 0 },
+  { name: "lines", label: "Lines", ink: "", there: () => run.lines.axes.length > 0 },
   { name: "path", label: "Estimate", ink: "manhattan", there: () => run.trajectoryThere },
   { name: "truth", label: "Ground truth", ink: "truth", there: () => Boolean(run.truth) },
   { name: "keyframes", label: "Keyframes", ink: "accent", there: () => run.keyframes.length > 0 },
