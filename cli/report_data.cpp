@@ -166,7 +166,7 @@ class DataMaker {
     data_["truth"] = {{"positions", floats(path)}, {"stamps", packed<double>("f64", stamps)}};
     const io::PairedPoses paired = io::pair_poses(run_.truth, run_.trajectory, alignment->max_difference);
     const std::vector<double> distances = io::position_errors(paired, truth_from_map);
-    const std::vector<double> angles = io::rotation_errors(paired, truth_from_map.rotation);
+    const std::vector<double> angles = io::rotation_errors(paired, io::rotation_offset(paired));
     std::vector<double> position(run_.frames.rows.size(), kNone64), rotation = position;
     for (std::size_t i = 0; i < paired.estimate.size(); ++i) {
       const auto row = row_of(paired.estimate[i].stamp);

@@ -129,7 +129,7 @@ function showCharts() {
   const column = (name) => frames.all(name);
   if (run.errors) {
     new Chart("Position error", [{ label: "after alignment", ink: "accent", values: run.errors.position_m, unit: "m" }]);
-    new Chart("Rotation error", [{ label: "after the same alignment", ink: "accent", values: run.errors.rotation_deg, unit: "°" }]);
+    new Chart("Rotation error", [{ label: "after a constant offset", ink: "accent", values: run.errors.rotation_deg, unit: "°" }]);
   }
   if (frames.has("point_inliers"))
     new Chart("Map seen again", [{ label: "points", ink: "accent", values: column("point_inliers") }, { label: "lines", ink: "x", values: column("line_inliers") }]);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What went wrong and where, in words.
 
+const kWarnings = 5;  // in full
+
 // Runs of rows for which same(row) gives equal, not null, answers.
 function spansOf(count, same) {
   const spans = [];
@@ -64,7 +66,7 @@ function longest(items, atMost, noun) {
   const rest = items.filter((item) => !kept.includes(item));
   const frames = rest.reduce((sum, item) => sum + item.length, 0);
   return [...kept.sort((a, b) => a.row - b.row),
-    { state: items[0].state, text: `And ${rest.length} shorter spans ${noun}, ${countOf(frames, "frame")} in all.` }];
+    { state: items[0].state, text: `And ${countOf(rest.length, "shorter span")} ${noun}, ${countOf(frames, "frame")} in all.` }];
 }
 
 function greatest(values) {
@@ -89,7 +91,7 @@ function tellStory() {
     const noted = (row) => ["lost", "fallback", "initialising"].includes(run.state(row)) && run.reason(row) !== "relocalised";
     const spans = spansOf(frames.count, (row) => (noted(row) ? run.state(row) : null));
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
-    items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 8, "of the same"));
+    items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 4, "of the same"));
   }
   const unseen = metrics.frames_without_normal_evidence;
   if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals gave no Manhattan evidence: lines alone spoke for the axes there.` });
@@ -97,7 +99,9 @@ function tellStory() {
   if (worst >= 0) items.push({ state: "manhattan", text: `The largest position error is ${figure(run.errors.position_m[worst])} m (${whereOf({ from: worst, to: worst })}).`, row: worst });
   const slowest = frames.has("frame_ms") ? greatest(frames.all("frame_ms")) : -1;
   if (slowest >= 0) items.push({ state: "manhattan", text: `The slowest frame took ${figure(frames.number("frame_ms", slowest))} ms (${whereOf({ from: slowest, to: slowest })}).`, row: slowest });
-  for (const warning of metrics.warnings ?? []) items.push({ state: "fallback", text: String(warning) });
+  const warnings = metrics.warnings ?? [];
+  for (const warning of warnings.slice(0, kWarnings)) items.push({ state: "fallback", text: String(warning) });
+  if (warnings.length > kWarnings) items.push({ state: "fallback", text: `And ${countOf(warnings.length - kWarnings, "more warning")}, in metrics.json.` });
   return items;
 }
 
