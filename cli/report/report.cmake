@@ -17,7 +17,9 @@ if(SSLAM_NPM AND SSLAM_NODE)
   endif()
   if(NOT installed STREQUAL wanted)
     message(STATUS "Fetching three.js for the report's 3D view")
-    execute_process(COMMAND "${SSLAM_NPM}" ci --ignore-scripts --no-audit --no-fund WORKING_DIRECTORY "${report_build}"
+    execute_process(COMMAND "${SSLAM_NPM}" ci --ignore-scripts --no-audit --no-fund
+                            --fetch-retries=1 --fetch-retry-mintimeout=2000
+                    WORKING_DIRECTORY "${report_build}"
                     TIMEOUT 120 RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
     if(NOT failed)
       file(WRITE "${report_build}/installed" "${wanted}")
