@@ -62,12 +62,12 @@ function showLayers(view) {
   });
   byId("layers").append(...buttons, element("span", { className: "spring" }));
   if (!(view instanceof Scene3D)) return;
-  const follow = toggleButton("Follow camera", (on) => view.setFollow(on));
+  const follow = toggleButton("Follow camera", (on) => view.viewpoint.setFollow(on));
   follow.id = "follow";
   follow.classList.add("mode");
   follow.setAttribute("aria-pressed", "false");
   follow.hidden = !run.trajectoryThere;
-  byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.reset() }, "Reset"));
+  byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.viewpoint.reset() }, "Reset"));
 }
 
 function showFrameText(row) {

@@ -23,22 +23,17 @@ class Scene3D {
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(50, 1, 0.01, 1000);
-    this.controls = new THREE.OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.request());
     this.world = new THREE.Group();  // metres where the scale is known; y up, as the map's y points down
     this.world.rotation.x = Math.PI;
     this.world.scale.setScalar(run.scale);
     this.scene.add(this.world);
     this.layers = {};
-    this.follows = false;
     this.measure();
+    this.viewpoint = new Viewpoint(canvas, this.world, this.middle, this.radius, () => this.request());
     this.build();
-    this.home();
     shown.listen(() => this.showFrame());
     redraws.push(() => this.restyle());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
-    canvas.addEventListener("keydown", (event) => this.key(event));
     this.resize();
     this.restyle();
   }
@@ -50,8 +45,6 @@ class Scene3D {
     this.middle = at(low).add(at(high)).multiplyScalar(0.5);
     this.radius = Math.max(at(low).distanceTo(at(high)) / 2, 0.1);
     this.floor = high[1];
-    this.camera.near = this.radius / 500;
-    this.camera.far = this.radius * 60;
   }
 
   add(name, object) {
@@ -172,79 +165,9 @@ class Scene3D {
       const [x, y, z, qx, qy, qz, qw] = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
       this.eye.position.set(x, y, z);
       this.eye.quaternion.set(qx, qy, qz, qw);
-      if (this.follows) this.chase();
+      this.viewpoint.showFrame();
     }
     this.request();
-  }
-
-  setFollow(on) {
-    this.follows = on;
-    if (on) this.behind();
-    else this.home();
-  }
-
-  // Where the shown camera stands, and which way it looks over the floor.
-  heading() {
-    const pose = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
-    const at = this.world.localToWorld(new THREE.Vector3(pose[0], pose[1], pose[2]));
-    const [x, , z] = forwardOf(pose);
-    return { at, angle: Math.atan2(x, -z) };
-  }
-
-  behind() {
-    if (run.frames.count === 0 || !run.hasPose(shown.row)) return;
-    const { at, angle } = this.heading();
-    this.angle = angle;
-    const back = 0.45 * this.radius;
-    this.controls.target.copy(at);
-    this.camera.position.set(at.x - back * Math.sin(angle), at.y + 0.45 * back, at.z - back * Math.cos(angle));
-    this.controls.update();
-    this.request();
-  }
-
-  // Goes along with the shown camera and turns with it, from wherever the user looks at it.
-  chase() {
-    const { at, angle } = this.heading();
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    offset.applyAxisAngle(new THREE.Vector3(0, 1, 0), angle - (this.angle ?? angle));
-    this.angle = angle;
-    this.controls.target.copy(at);
-    this.camera.position.copy(at).add(offset);
-    this.controls.update();
-  }
-
-  home() {
-    const reach = 1.9 * this.radius * Math.max(1, 0.85 / this.camera.aspect);
-    this.controls.target.copy(this.middle);
-    this.camera.position.copy(this.middle).add(new THREE.Vector3(-0.35, 0.75, 0.62).multiplyScalar(reach));
-    this.controls.update();
-    this.request();
-  }
-
-  reset() {
-    if (this.follows) this.behind();
-    else this.home();
-  }
-
-  // right and up in radians, nearer as a factor.
-  orbit(right, up, nearer) {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const length = offset.length() * nearer;
-    const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) - up, 0.05), Math.PI - 0.05);
-    const azimuth = Math.atan2(offset.x, offset.z) + right;
-    offset.set(Math.sin(polar) * Math.sin(azimuth), Math.cos(polar), Math.sin(polar) * Math.cos(azimuth)).multiplyScalar(length);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.request();
-  }
-
-  key(event) {
-    const turns = { ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.08, 1], ArrowDown: [0, -0.08, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1.1] };
-    const turn = turns[event.key];
-    if (!turn || event.ctrlKey || event.metaKey) return;
-    this.orbit(...turn);
-    event.preventDefault();
-    event.stopPropagation();
   }
 
   resize() {
@@ -253,9 +176,8 @@ class Scene3D {
     const first = this.width === undefined;
     this.width = width;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    if (first) this.home();
+    this.viewpoint.shape(width / height);
+    if (first) this.viewpoint.home();
     this.draw();
   }
 
@@ -272,7 +194,7 @@ class Scene3D {
     const { geometry } = this.layers.points;
     const abridged = !resting && geometry.attributes.position.count > kPointsInMotion;
     geometry.setDrawRange(0, abridged ? kPointsInMotion : Infinity);
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, this.viewpoint.camera);
     if (!this.software) return;
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits: else frames would queue up

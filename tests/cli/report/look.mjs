@@ -54,7 +54,7 @@ async function useTracked(page) {
   await page.run("scrollTo(0, 0)");
   if (!three) return;
   // The mouse orbits, layers come and go, the camera is followed.
-  const look = "view3d.camera.position.toArray()";
+  const look = "view3d.viewpoint.camera.position.toArray()";
   const before = await page.run(look);
   const middle = await middleOf(page, "#canvas");
   await page.drag(middle, [middle[0] + 120, middle[1] + 30]);
@@ -68,7 +68,7 @@ async function useTracked(page) {
   for (const key of ["1", "2", "3", "4", "5", "6"]) await page.press(key);
   assert.ok(await page.run("Object.values(view3d.layers).every((layer) => layer.visible)"));
   await page.press("f");
-  assert.equal(await page.run("view3d.follows"), true);
+  assert.equal(await page.run("view3d.viewpoint.follows"), true);
   const followed = await page.run(look);
   await page.press("End");
   assert.notDeepEqual(await page.run(look), followed);
