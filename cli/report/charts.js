@@ -50,7 +50,7 @@ class Chart {
     let high = this.whole;
     for (const s of this.series)
       for (const value of s.values) if (value > high) high = value;
-    if (!(high > 0)) high = 1;
+    high = high > 0 ? Math.max(this.whole, 1.04 * high) : 1;
     const y = (value) => height - kPlot.bottom - (height - kPlot.top - kPlot.bottom) * value / high;
     this.drawStates(context, height);
     this.drawTicks(context, high, y, height);

@@ -80,7 +80,10 @@ TEST_CASE("a run leaves a report, and its files give the same report again") {
   CHECK(again.code == 0);
   CHECK(room.page() == first);
 
-  const std::string trajectory = text_of(room.run / "trajectory.txt");
+  const std::string trajectory = text_of(room.run / "trajectory.txt"),
+                    views = text_of(room.run / "views.bin");
+  REQUIRE(room.track().code == 0);
+  CHECK(text_of(room.run / "views.bin") == views);
   REQUIRE(room.track("--no-report").code == 0);
   CHECK_FALSE(fs::exists(room.run / "report.html"));
   CHECK_FALSE(fs::exists(room.run / "views.bin"));
