@@ -14,7 +14,7 @@ namespace sslam::cli {
 // run.problems what does not fit together.
 [[nodiscard]] nlohmann::ordered_json report_data(RunFolder& run);
 
-// Every n-th of the views, so that they fit into the page.
+// As many of the views, evenly spaced, as fit into the page.
 [[nodiscard]] std::vector<std::string> choose_views(const std::vector<std::string>& views);
 
 }  // namespace sslam::cli
