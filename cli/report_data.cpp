@@ -143,7 +143,7 @@ class DataMaker {
     for (const auto& point : run_.map.points)
       if (point.alive) append(points, point.position);
     for (const auto& line : run_.map.lines) {
-      if (!line.alive) continue;
+      if (!line.alive || !line.start.allFinite() || !line.end.allFinite()) continue;
       append(lines, line.start);
       append(lines, line.end);
       axes.push_back(line.axis);

@@ -38,6 +38,12 @@ class FrameTable {
   }
 }
 
+// The numbers of a list that has `count` of them; else `otherwise`.
+function numbersOr(otherwise, values, count) {
+  const good = Array.isArray(values) && values.length === count && values.every((value) => Number.isFinite(value) && value > 0);
+  return good ? values : otherwise;
+}
+
 function readRun() {
   const raw = JSON.parse(document.getElementById("data").textContent);
   const metrics = raw.metrics;  // as it was written: it may have a member called base64
@@ -52,6 +58,8 @@ function readRun() {
     metrics,
     settings,
     frames,
+    pinhole: numbersOr([1, 1, 0.5, 0.5], settings.pinhole, 4),
+    imageSize: numbersOr([1, 1], settings.image_size, 2),
     scale: data.metres_per_unit ?? 1,
     unit: data.metres_per_unit ? "m" : "map units",
     secondsOfStamp: (stamp) => (stamp - (stamps[0] ?? 0)) * secondsPerStamp,

@@ -119,8 +119,7 @@ class Scene3D {
 
   // A camera as 8 segments, `size` deep.
   frustum([x, y, z, qx, qy, qz, qw], size) {
-    const [fx, fy] = run.settings.pinhole ?? [1, 1];
-    const [width, height] = run.settings.image_size ?? [1, 0.75];
+    const [fx, fy] = run.pinhole, [width, height] = run.imageSize;
     const w = Math.min(Math.max(width / 2 / fx, 0.2), 2), h = Math.min(Math.max(height / 2 / fy, 0.2), 2);
     const turn = new THREE.Quaternion(qx, qy, qz, qw);
     const corner = (u, v) => new THREE.Vector3(u * w, v * h, 1).multiplyScalar(size).applyQuaternion(turn).add(new THREE.Vector3(x, y, z)).toArray();

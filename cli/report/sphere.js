@@ -45,9 +45,7 @@ class Sphere {
   }
 
   drawSegments(context) {
-    const [fx, fy, cx, cy] = run.settings.pinhole ?? [];
-    const [width, height] = run.settings.image_size ?? [];
-    if (!fx || !width) return;
+    const [fx, fy, cx, cy] = run.pinhole, [width, height] = run.imageSize;
     const ray = (u, v) => [(u * width - cx) / fx, (v * height - cy) / fy, 1];
     context.lineWidth = 0.8;
     context.globalAlpha = 0.5;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens the reports of a tracked run, of a run that gets lost and of one that tracks nothing, and uses them.
+// Opens the reports of a tracked run, of one that gets lost, of one that tracks nothing and of a damaged one, and uses
+// them.
 // Usage: look.mjs SSLAM [FOLDER for screenshots]
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, kNoGl, kSoftwareGl } from "./browser.mjs";
@@ -88,6 +89,14 @@ async function blindFrames(page) {
   for (let i = 40; i < 48; ++i) writeFileSync(join(room, `rgb/0000${i}.jpg`), Buffer.from(jpeg, "base64"));
 }
 
+// A run of which half is gone, with figures of other kinds than expected.
+function damage(run) {
+  rmSync(join(run, "map.sslam"));
+  for (const name of ["frames.csv", "views.bin"]) truncateSync(join(run, name), Math.floor(statSync(join(run, name)).size / 2));
+  writeFileSync(join(run, "metrics.json"), '{"tracked": "all", "states": 5, "trajectory": 7, "times": [], "settings": {"dataset": {}, "pinhole": "?"}}');
+  call(0, "report", run);
+}
+
 async function main() {
   call(0, "demo", join(scratch, "demo"), "--frames", "60");
   const run = join(scratch, "demo/run"), lost = join(scratch, "lost"), none = join(scratch, "none");
@@ -108,6 +117,12 @@ async function main() {
       assert.match(await page.run("byId('frame-state').textContent"), /^lost: too few matches/);
       assert.equal(await page.run("typeof THREE !== 'undefined' && view3d.eye.visible"), false);
       await page.screenshot(picture("lost"));
+    });
+    damage(lost);
+    await look(browser, lost, {}, async (page) => {
+      assert.match(await page.run("byId('story').textContent"), /map\.sslam: is missing.*views\.bin: is cut off/);
+      await page.press("End");
+      await page.screenshot(picture("damaged"));
     });
     await look(browser, none, {}, async (page) => {
       assert.match(await page.run("byId('story').textContent"), /No frame was tracked/);
