@@ -106,8 +106,8 @@ function tellStory() {
 }
 
 function headline() {
-  const states = run.metrics.states ?? {};
-  const lost = states.lost ?? 0, fallback = states.fallback ?? 0;
+  const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.state(row)).filter((s) => s === state).length;
+  const lost = rows("lost"), fallback = rows("fallback");
   if (run.frames.count === 0) return "";
   if (run.metrics.tracked === 0) return "No frame was tracked: below stands why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];
