@@ -12,6 +12,7 @@ void add_run_command(CLI::App& app);      // run.cpp
 void add_eval_command(CLI::App& app);     // eval.cpp
 void add_synth_command(CLI::App& app);    // synth.cpp
 void add_normals_command(CLI::App& app);  // normals.cpp
+void add_report_command(CLI::App& app);   // report.cpp
 void add_demo_command(CLI::App& app);     // demo.cpp
 
 }  // namespace sslam::cli

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/run.hpp"
+#include "cli/run_folder.hpp"
 #include "cli/synth.hpp"
 
 namespace sslam::cli {
@@ -36,8 +37,7 @@ void run_demo(const DemoSettings& settings) {
   track.seed = settings.seed;
   track.normals = settings.normals;
   run(track);
-  std::printf("\nLook at %s (the path seen from above) and open %s in MeshLab or Blender.\n",
-              (folder / "run" / "topview.svg").c_str(), (folder / "run" / "map.ply").c_str());
+  std::printf("\nOpen %s in a browser.\n", (folder / "run" / kReportFile).c_str());
 }
 
 }  // namespace

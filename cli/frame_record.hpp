@@ -66,7 +66,8 @@ struct RunOutcome {
   Map<double> map;
   std::vector<ParameterValue> parameters;
   std::vector<std::string> warnings;
-  double wall_seconds = 0;  // of the whole loop
+  std::vector<std::string> views;  // frames as encode_frame_view gives them
+  double wall_seconds = 0;         // of the whole loop
   bool interrupted = false;
 };
 

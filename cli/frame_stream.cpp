@@ -78,6 +78,7 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
     out.warning = why + "; frame skipped";
     return;
   }
+  if (settings_.keep_pictures) keep_pictures(input, out);
   if (!settings_.use_points) out.frame.points.clear();
   if (!settings_.use_lines) out.frame.lines.clear();
   // A view without planes is no fault of the input: the run's figures count it, and nobody is warned.
@@ -85,6 +86,13 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
       out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
   if (!fine && out.warning.empty())
     out.warning = entry.image.string() + ": " + name(out.report.normals) + "; lines alone for this frame";
+}
+
+void FrameStream::keep_pictures(const ImageInput& input, ExtractedFrame& out) const {
+  out.picture = input.image;
+  const bool seen =
+      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
+  out.normal_picture = seen ? frontend_.normals.small_picture() : cv::Mat();
 }
 
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {

@@ -25,14 +25,17 @@ struct StreamSettings {
   NormalChoice normals;
   bool use_points = true;
   bool use_lines = true;
+  bool keep_pictures = false;  // hand the images on with their frames
 };
 
 struct ExtractedFrame {
   Frame<double> frame;
   FrontendReport report;
-  std::string image;    // file name, for people
-  std::string warning;  // not empty: something is wrong with this frame
-  bool usable = true;   // false: the frame could not be read and is skipped
+  std::string image;       // file name, for people
+  std::string warning;     // not empty: something is wrong with this frame
+  bool usable = true;      // false: the frame could not be read and is skipped
+  cv::Mat picture;         // the image, if pictures are kept
+  cv::Mat normal_picture;  // its normals in small, if pictures are kept and there are any
 };
 
 class FrameStream {
@@ -43,6 +46,7 @@ class FrameStream {
   FrameStream& operator=(const FrameStream&) = delete;
 
   [[nodiscard]] std::size_t size() const noexcept { return dataset_.frames.size(); }
+  [[nodiscard]] const Camera<double>& camera() const noexcept { return settings_.camera; }
 
   // The next frame in order; false at the end. The old contents of `out` are recycled.
   [[nodiscard]] bool next(ExtractedFrame& out);
@@ -50,6 +54,7 @@ class FrameStream {
  private:
   void produce();
   void fill(const io::FrameEntry& entry, ExtractedFrame& out);
+  void keep_pictures(const ImageInput& input, ExtractedFrame& out) const;
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
 
   const io::Dataset& dataset_;

@@ -7,6 +7,7 @@
 #include "cli/shipped_model.hpp"
 #include "sslam/io/error.hpp"
 #include "sslam/io/text.hpp"
+#include "sslam/opencv/normal_picture.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -32,6 +33,18 @@ FileNormals open_files(const fs::path& folder) {
 }
 
 }  // namespace
+
+cv::Mat NormalChoice::small_picture() const {
+  constexpr int kColumns = 128;
+  if (const auto* network = std::get_if<OnnxNormals>(&source)) {
+    return network->manifest().kind == NetworkOutput::kNormals
+               ? small_normal_picture(network->dense(), kColumns)
+               : small_normal_picture(network->depth().grid());
+  }
+  if (const auto* depth = std::get_if<DepthNormals>(&source)) return small_normal_picture(depth->grid());
+  if (const auto* files = std::get_if<FileNormals>(&source)) return small_normal_picture(files->grid());
+  return {};
+}
 
 NormalChoice choose_normals(const std::string& text) {
   constexpr std::string_view kFiles = "files:", kOnnx = "onnx:";

@@ -18,6 +18,9 @@ struct NormalChoice {
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
   }
+
+  // The normals of the last frame, to look at; empty where there is no source of them.
+  [[nodiscard]] cv::Mat small_picture() const;
 };
 static_assert(NormalSource<NormalChoice>);
 

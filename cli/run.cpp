@@ -13,6 +13,7 @@
 #include "cli/image_file.hpp"
 #include "cli/messages.hpp"
 #include "cli/presets.hpp"
+#include "cli/report.hpp"
 #include "cli/run_report.hpp"
 #include "cli/shipped_model.hpp"
 #include "sslam/io/map_file.hpp"
@@ -98,11 +99,14 @@ void run(RunSettings settings) {
   stream_settings.normals = choose_normals(settings.normals);
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
+  stream_settings.keep_pictures = settings.report;
   FrameStream stream(dataset, std::move(stream_settings));
+  if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
   Progress progress(stream.size(), settings.verbosity);
   const RunOutcome outcome = preset.run(stream, track, progress);
   print_warnings(outcome.warnings);
-  write_run({settings, dataset, camera.source, camera.camera.pinhole}, outcome);
+  write_run({settings, dataset, camera.source, camera.camera}, outcome);
+  if (settings.report) write_report(settings.out);
   if (outcome.interrupted) {
     print_warning("interrupted; what had been computed was written");
     throw Stop{ExitCode::kInterrupted};
@@ -152,6 +156,8 @@ void add_run_command(CLI::App& app) {
   command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command->add_flag_callback(
+      "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   command->add_flag_callback(
       "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
   command->callback([s] { run(*s); });

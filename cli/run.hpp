@@ -27,6 +27,7 @@ struct RunSettings {
   io::Slice slice;
   std::vector<std::string> set;  // stage.parameter=value
   std::uint64_t seed = 1;
+  bool report = true;      // write report.html
   double frame_rate = 30;  // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
 };

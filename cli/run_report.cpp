@@ -5,10 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <opencv2/core/version.hpp>
 #include <optional>
 
 #include "cli/eval_report.hpp"
 #include "cli/messages.hpp"
+#include "cli/run_folder.hpp"
+#include "cli/view_file.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/csv_writer.hpp"
 #include "sslam/io/evaluation.hpp"
@@ -55,6 +58,16 @@ void write_map_file(const fs::path& path, const RunOutcome& outcome) {
       lines.push_back(
           {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
   io::write_map(path, points, lines);
+}
+
+// That part of the ground truth that was recorded while the images were.
+void write_truth(const fs::path& path, const io::Dataset& dataset) {
+  io::Trajectory seen;
+  for (const io::StampedPose& pose : dataset.ground_truth)
+    if (pose.stamp >= dataset.frames.front().stamp - io::kMaxStampDifference &&
+        pose.stamp <= dataset.frames.back().stamp + io::kMaxStampDifference)
+      seen.push_back(pose);
+  if (!seen.empty()) io::write_trajectory(path, seen);
 }
 
 template <class Landmarks>
@@ -105,11 +118,14 @@ std::size_t count_normals(const RunOutcome& outcome, NormalStatus status) {
 
 Json settings_json(const RunContext& context, const RunOutcome& outcome) {
   const RunSettings& s = context.settings;
+  const Pinhole<double>& pinhole = context.camera.pinhole;
   Json parameters;
   for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
   return {{"dataset", s.dataset},
           {"camera", context.camera_source},
-          {"pinhole", {context.pinhole.fx, context.pinhole.fy, context.pinhole.cx, context.pinhole.cy}},
+          {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
+          {"image_size", {context.camera.width, context.camera.height}},
+          {"seconds_per_stamp", context.dataset.seconds_per_stamp},
           {"normals", s.normals},
           {"preset", s.preset},
           {"map", s.map},
@@ -118,6 +134,12 @@ Json settings_json(const RunContext& context, const RunOutcome& outcome) {
           {"stride", s.slice.stride},
           {"seed", s.seed},
           {"parameters", parameters}};
+}
+
+Json versions_json() {
+  const std::string eigen = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                            "." + std::to_string(EIGEN_MINOR_VERSION);
+  return {{"sslam", SSLAM_VERSION}, {"eigen", eigen}, {"opencv", CV_VERSION}, {"compiler", __VERSION__}};
 }
 
 std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::Trajectory& trajectory) {
@@ -173,7 +195,11 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   io::write_trajectory(out / "trajectory_live.txt", outcome.live);
   io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
   write_map_file(out / "map.ply", outcome);
+  // What an earlier run in this folder has left must not pass for this one's.
+  for (const char* name : {"map.sslam", kTruthFile, kViewFile, kReportFile}) fs::remove(out / name);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
+  write_truth(out / kTruthFile, context.dataset);
+  if (!outcome.views.empty()) write_views(out / kViewFile, outcome.views);
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);
   const auto live = evaluate_run(context, outcome.live);
@@ -193,6 +219,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   if (live) metrics["trajectory_live"] = evaluation_json(*live);
   metrics["warnings"] = outcome.warnings;
   metrics["settings"] = settings_json(context, outcome);
+  metrics["versions"] = versions_json();
   write_json((out / "metrics.json").string(), metrics);
   write_top_view_file(out / "topview.svg", context, outcome, evaluation);
   print_summary(context, outcome, evaluation);

@@ -16,7 +16,7 @@ struct RunContext {
   const RunSettings& settings;
   const io::Dataset& dataset;
   std::string camera_source;
-  Pinhole<double> pinhole;
+  Camera<double> camera;
 };
 
 // Writes all files into settings.out and prints the summary. Throws io::Error when a file cannot be written.

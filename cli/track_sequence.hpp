@@ -9,6 +9,7 @@
 
 #include "cli/frame_record.hpp"
 #include "cli/frame_stream.hpp"
+#include "cli/frame_view.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/parameters.hpp"
 #include "cli/progress.hpp"
@@ -99,6 +100,11 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
     record.stage_ms = pipeline.timer.milliseconds;
     if (record.result.has_pose())
       outcome.live.push_back({record.result.stamp, record.result.cam_from_world.inverse()});
+    const std::size_t row = outcome.frames.size();
+    if (settings.view_stride > 0 && row % settings.view_stride == 0)
+      outcome.views.push_back(encode_frame_view(
+          {row, input.picture, input.normal_picture, stream.camera(), pipeline.map().world_from_manhattan},
+          pipeline.last_frame()));
     progress.show(record);
     outcome.frames.push_back(std::move(record));
   }

@@ -2,6 +2,7 @@
 // What the user may change about a preset.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace sslam::cli {
 struct TrackSettings {
   std::vector<ParameterValue> overrides;  // of --set, in the units of --list-parameters
   std::uint64_t seed = 1;
-  Map<double> map;  // of an earlier run, to go on in; empty: none
+  Map<double> map;              // of an earlier run, to go on in; empty: none
+  std::size_t view_stride = 0;  // every n-th frame is kept for the report; 0: none
 };
 
 }  // namespace sslam::cli

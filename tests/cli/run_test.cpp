@@ -79,7 +79,7 @@ TEST_CASE("run tracks a rendered room and writes every file") {
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   for (const char* name : {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply", "frames.csv",
-                           "metrics.json", "topview.svg"})
+                           "metrics.json", "topview.svg", "report.html"})
     REQUIRE(fs::file_size(copy.out / name) > 0);
   const auto metrics = copy.metrics();
   REQUIRE(metrics["frames"] == kFrames);
@@ -318,7 +318,7 @@ TEST_CASE("demo renders, tracks and says where to look") {
   const Outcome outcome = run_program("demo " + (scratch.path() / "demo").string() + " --frames 60");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
-  REQUIRE(outcome.text.find("topview.svg") != std::string::npos);
+  REQUIRE(outcome.text.find("report.html") != std::string::npos);
   REQUIRE(fs::exists(scratch.path() / "demo/run/map.ply"));
   REQUIRE(text_of(scratch.path() / "demo/run/metrics.json").find("\"normals\": \"onnx\"") !=
           std::string::npos);

@@ -89,6 +89,18 @@ struct PairedPoses {
   return length;
 }
 
+// Distances after alignment.
+[[nodiscard]] inline std::vector<double> position_errors(const PairedPoses& paired,
+                                                         const Sim3<double>& truth_from_estimate) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < paired.truth.size(); ++i) {
+    errors.push_back((truth_from_estimate * paired.estimate[i].world_from_cam.translation -
+                      paired.truth[i].world_from_cam.translation)
+                         .norm());
+  }
+  return errors;
+}
+
 [[nodiscard]] inline std::vector<double> rotation_errors(const PairedPoses& paired,
                                                          const SO3<double>& truth_from_estimate) {
   std::vector<double> errors;
@@ -162,11 +174,7 @@ struct PairedPoses {
                        ? estimate.size()
                        : associate(options.frame_stamps, stamps_of(estimate), options.max_difference).size();
   result.truth_from_estimate = align(positions, true_positions, options.alignment);
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    distances.push_back((result.truth_from_estimate * positions[i] - true_positions[i]).norm());
-  }
-  result.position = statistics_of(distances);
+  result.position = statistics_of(position_errors(paired, result.truth_from_estimate));
   result.rotation = statistics_of(rotation_errors(paired, result.truth_from_estimate.rotation));
   result.rotation_own_offset = statistics_of(rotation_errors(paired, rotation_offset(paired)));
   for (const Delta& delta : options.deltas) {

@@ -32,6 +32,9 @@ class DepthNormals {
  public:
   DepthNormalsOptions options;
 
+  // Of the last frame, before those off planes were left out.
+  [[nodiscard]] const NormalGrid& grid() const noexcept { return grid_; }
+
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     field.clear();
     const cv::Mat& depth = input.depth;

@@ -64,6 +64,9 @@ class FileNormals {
  public:
   FileNormalsOptions options;
 
+  // Of the last frame, before those off planes were left out.
+  [[nodiscard]] const NormalGrid& grid() const noexcept { return grid_; }
+
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     field.clear();
     const auto path = options.folder / (input.name + options.extension);

@@ -51,6 +51,9 @@ class OnnxNormals {
 
   [[nodiscard]] const NormalManifest& manifest() const noexcept { return network_.manifest(); }
   [[nodiscard]] const OnnxNormalsReport& report() const noexcept { return report_; }
+  // The last frame's whole answer, for models whose output is normals; the others leave depth() one.
+  [[nodiscard]] const DenseNormals& dense() const noexcept { return dense_; }
+  [[nodiscard]] const DepthNormals& depth() const noexcept { return depth_; }
 
   // After kBadOutput and kNoEvidence, report() has the figures.
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `report.html`, made from the files of a run.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace sslam::cli {
+
+inline constexpr std::size_t kMaxViews = 1000;  // that a run keeps for its report, however long it is
+
+// Reads the run's folder and writes its report there; warns about files that cannot be used. Throws io::Error
+// when there is no run, or when the report cannot be written.
+void write_report(const std::filesystem::path& folder);
+
+}  // namespace sslam::cli

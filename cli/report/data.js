@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The run, as report_data.cpp wrote it, with its arrays unpacked. One global: run.
+
+const kArrayTypes = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, i8: Int8Array };
+
+function bytesOf(base64) {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+function unpack(value) {
+  if (value === null || typeof value !== "object" || Array.isArray(value)) return value;
+  if (typeof value.base64 === "string") return new kArrayTypes[value.type](bytesOf(value.base64).buffer);
+  return Object.fromEntries(Object.entries(value).map(([key, inner]) => [key, unpack(inner)]));
+}
+
+// The columns of frames.csv by name; what a file that is cut off lacks reads as zeros and blanks.
+class FrameTable {
+  constructor(frames) {
+    this.count = frames.count;
+    this.columns = frames.columns;
+  }
+  has(name) { return name in this.columns; }
+  number(name, row) {
+    const column = this.columns[name];
+    return ArrayBuffer.isView(column) ? column[row] : 0;
+  }
+  text(name, row) {
+    const column = this.columns[name];
+    if (!column) return "";
+    return column.names ? column.names[column.codes[row]] : String(column[row]);
+  }
+  all(name) {
+    const column = this.columns[name];
+    return ArrayBuffer.isView(column) ? column : new Float32Array(this.count);
+  }
+}
+
+// The numbers of a list that has `count` of them; else `otherwise`.
+function numbersOr(otherwise, values, count) {
+  const good = Array.isArray(values) && values.length === count && values.every((value) => Number.isFinite(value) && value > 0);
+  return good ? values : otherwise;
+}
+
+function readRun() {
+  const raw = JSON.parse(document.getElementById("data").textContent);
+  const metrics = raw.metrics;  // as it was written: it may have a member called base64
+  delete raw.metrics;
+  const data = unpack(raw);
+  const frames = new FrameTable(data.frames);
+  const settings = metrics.settings ?? {};
+  const secondsPerStamp = Number(settings.seconds_per_stamp) || 1;
+  const stamps = frames.all("stamp");
+  return {
+    ...data,
+    metrics,
+    settings,
+    frames,
+    pinhole: numbersOr([1, 1, 0.5, 0.5], settings.pinhole, 4),
+    imageSize: numbersOr([1, 1], settings.image_size, 2),
+    scale: data.metres_per_unit ?? 1,
+    unit: data.metres_per_unit ? "m" : "map units",
+    secondsOfStamp: (stamp) => (stamp - (stamps[0] ?? 0)) * secondsPerStamp,
+    seconds: (row) => (stamps[row] - (stamps[0] ?? 0)) * secondsPerStamp,
+    hasPose: (row) => !Number.isNaN(data.poses[7 * row]),
+    state: (row) => frames.text("state", row),
+    reason: (row) => frames.text("reason", row),
+  };
+}
+
+const run = readRun();

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small tools of the page: elements, numbers in words, the theme's colours, and which frame is shown.
+
+function byId(id) { return document.getElementById(id); }
+
+// element("p", {className: "quiet"}, "text", child, ...): text is text, never markup.
+function element(tag, properties = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name.startsWith("aria-")) made.setAttribute(name, value);
+    else made[name] = value;
+  }
+  made.append(...children);
+  return made;
+}
+
+// Three significant digits, without an exponent where people do not expect one.
+function figure(value) {
+  if (value === null || value === undefined || !Number.isFinite(Number(value))) return "–";
+  const number = Number(value);
+  if (number === 0) return "0";
+  const size = Math.abs(number);
+  if (size >= 100) return String(Math.round(number));
+  if (size < 1e-4) return number.toExponential(1);
+  return String(Number(number.toPrecision(3)));
+}
+
+function clock(row) { return `${run.seconds(row).toFixed(2)} s`; }
+
+function countOf(number, noun) { return `${number} ${noun}${number === 1 ? "" : "s"}`; }
+
+function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
+
+const kAxes = ["x", "y", "z"];
+function axisName(axis) { return kAxes[axis] ?? "none"; }
+
+// The shown frame; everything that depends on it listens.
+const shown = {
+  row: 0,
+  listeners: [],
+  set(row) {
+    const last = Math.max(run.frames.count - 1, 0);
+    this.row = Math.min(Math.max(Math.round(row), 0), last);
+    for (const listen of this.listeners) listen(this.row);
+  },
+  listen(listener) { this.listeners.push(listener); },
+};
+
+// Called when colours or sizes have changed.
+const redraws = [];
+function redrawAll() { for (const redraw of redraws) redraw(); }
+
+// A canvas's context in CSS pixels, cleared; null while it has no size.
+function clearedContext(canvas) {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (width === 0 || height === 0) return null;
+  const ratio = Math.min(window.devicePixelRatio || 1, 2);
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return { context, width, height };
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts the page together: title, view, layers, timeline, keys, theme.
+
+run.trajectoryThere = run.poses.some((value) => !Number.isNaN(value));
+
+function toggleButton(label, set, inkName) {
+  const button = element("button", { type: "button", "aria-pressed": "true" });
+  if (inkName !== undefined) {
+    const swatch = element("span", { className: inkName ? "swatch" : "swatch axes" });
+    if (inkName) swatch.style.color = `var(--${inkName})`;
+    button.append(swatch);
+  }
+  button.append(label);
+  button.addEventListener("click", () => {
+    const on = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", String(on));
+    set(on);
+  });
+  return button;
+}
+
+function setTheme(name) {
+  document.documentElement.dataset.theme = name;
+  byId("theme").textContent = name === "dark" ? "Light" : "Dark";
+  redrawAll();
+}
+
+function showTitle() {
+  const dataset = String(run.settings.dataset ?? run.folder);
+  const name = dataset.split("/").filter(Boolean).pop() ?? dataset;
+  byId("title").textContent = name;
+  document.title = `${name} · sslam report`;
+  const parts = [run.settings.preset && `preset ${run.settings.preset}`, run.settings.normals && `normals ${run.settings.normals}`,
+    run.settings.seed !== undefined && `seed ${run.settings.seed}`, `in ${run.folder}`, run.program];
+  byId("subtitle").textContent = parts.filter(Boolean).join(" · ");
+}
+
+// The 3D view where the browser can, else the map from above.
+function makeView() {
+  const canvas = byId("canvas");
+  if (run.points.length + run.lines.axes.length === 0 && !run.trajectoryThere) notice("No map and no path to see: the list below says why.");
+  const webgl = webglContext(canvas);
+  if (webgl) return new Scene3D(canvas, webgl);
+  byId("view").classList.add("flat");
+  canvas.setAttribute("aria-label", "Map from above");
+  notice(typeof THREE === "undefined"
+    ? "This sslam was built without npm, so without the 3D view: the map is seen from above."
+    : "This browser has no WebGL: the map is seen from above.");
+  return new TopView(canvas);
+}
+
+function notice(text) {
+  byId("notice").hidden = false;
+  byId("notice").append(element("div", {}, text));
+}
+
+function showLayers(view) {
+  const buttons = kLayers.filter((layer) => layer.there()).map((layer) => {
+    const button = toggleButton(layer.label, (on) => view.setLayer(layer.name, on), layer.ink);
+    button.dataset.layer = layer.name;
+    return button;
+  });
+  byId("layers").append(...buttons, element("span", { className: "spring" }));
+  if (!(view instanceof Scene3D)) return;
+  const follow = toggleButton("Follow camera", (on) => view.viewpoint.setFollow(on));
+  follow.id = "follow";
+  follow.classList.add("mode");
+  follow.setAttribute("aria-pressed", "false");
+  follow.hidden = !run.trajectoryThere;
+  byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.viewpoint.reset() }, "Reset"));
+}
+
+function showFrameText(row) {
+  const { frames } = run;
+  if (frames.count === 0) return;
+  const [index, image, state, reason] = ["index", "image", "state", "reason"].map((name) => frames.text(name, row));
+  byId("frame-name").textContent = `${index} · ${image}`;
+  byId("frame-state").replaceChildren(element("span", { className: "swatch", style: `color: var(--${state})` }),
+    [state + (reason ? `: ${reason}` : ""), frames.number("keyframe", row) ? "keyframe" : ""].filter(Boolean).join(" · "));
+  byId("clock").replaceChildren(clock(row), element("span", { className: "long" }, ` · ${row + 1} of ${frames.count}`));
+  byId("slider").value = row;
+  byId("slider").setAttribute("aria-valuetext", `frame ${index}, ${state}`);
+}
+
+function drawStrip() {
+  const cleared = clearedContext(byId("strip"));
+  if (!cleared) return;
+  const { context, width, height } = cleared;
+  for (const span of spansOf(run.frames.count, (row) => run.state(row) || "none")) {
+    context.fillStyle = colour(span.key) || colour("none");
+    const x = width * span.from / run.frames.count;
+    context.fillRect(x, 0, Math.max(width * (span.to + 1) / run.frames.count - x, 1), height);
+  }
+}
+
+// Plays in real time, by the stamps.
+const player = {
+  on: false,
+  toggle() {
+    this.on = !this.on && run.frames.count > 1;
+    byId("play").textContent = this.on ? "\u23f8" : "\u25b6";
+    byId("play").setAttribute("aria-label", this.on ? "Pause" : "Play");
+    if (!this.on) return;
+    if (shown.row === run.frames.count - 1) shown.set(0);
+    this.offset = performance.now() / 1000 - run.seconds(shown.row);
+    requestAnimationFrame(() => this.step());
+  },
+  step() {
+    if (!this.on) return;
+    const now = performance.now() / 1000 - this.offset;
+    let row = shown.row;
+    while (row < run.frames.count - 1 && run.seconds(row + 1) <= now) ++row;
+    if (row !== shown.row) shown.set(row);
+    if (row === run.frames.count - 1) this.toggle();
+    else requestAnimationFrame(() => this.step());
+  },
+};
+
+const kKeys = [
+  { keys: [" "], name: "Space", does: "play or pause", act: () => player.toggle() },
+  { keys: ["ArrowRight"], name: "Right, left", does: "a frame on or back; ten with Shift", act: (event) => shown.set(shown.row + (event.shiftKey ? 10 : 1)) },
+  { keys: ["ArrowLeft"], act: (event) => shown.set(shown.row - (event.shiftKey ? 10 : 1)) },
+  { keys: ["Home"], name: "Home, End", does: "first or last frame", act: () => shown.set(0) },
+  { keys: ["End"], act: () => shown.set(run.frames.count - 1) },
+  { keys: ["f", "F"], name: "F", does: "follow the camera", act: () => byId("follow")?.click() },
+  { keys: ["r", "R"], name: "R", does: "reset the view", act: () => byId("reset")?.click() },
+  { keys: ["t", "T"], name: "T", does: "light or dark", act: () => byId("theme").click() },
+  { keys: ["1", "2", "3", "4", "5", "6"], name: "1 to 6", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]")[Number(event.key) - 1]?.click() },
+];
+
+function listenToKeys() {
+  list("keys", [...kKeys.filter((key) => key.name).map((key) => [key.name, key.does]), ["in the 3D view: arrows, + and -", "orbit and zoom"],
+    ["mouse: left, right, wheel", "orbit, move, zoom"]]);
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("summary, a")) return;
+    if (event.key === " " && event.target.closest?.("button")) return;
+    const key = kKeys.find((entry) => entry.keys.includes(event.key));
+    if (!key) return;
+    event.preventDefault();
+    key.act(event);
+  });
+}
+
+// A part of the page that fails, for figures that are of another kind than expected, leaves the others alone.
+function part(name, make) {
+  try {
+    make();
+  } catch (error) {
+    const text = `The ${name} cannot be shown: ${error.message}.`;
+    byId("story").append(element("li", {}, element("i", { style: "background: var(--lost)" }), element("span", {}, text)));
+  }
+}
+
+function main() {
+  setTheme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  byId("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+  part("title", showTitle);
+  part("summary", showSummary);
+  part("story", showStory);
+  part("curves", showCharts);
+  part("times of the stages", showTimings);
+  part("settings", showSettings);
+  byId("slider").max = Math.max(run.frames.count - 1, 0);
+  byId("slider").addEventListener("input", (event) => shown.set(Number(event.target.value)));
+  byId("play").addEventListener("click", () => player.toggle());
+  shown.listen(showFrameText);
+  redraws.push(drawStrip);
+  const view = makeView();
+  showLayers(view);
+  listenToKeys();
+  document.querySelectorAll("details").forEach((details) => { details.hidden = details.querySelector("pre, div").textContent === ""; });
+  window.addEventListener("resize", redrawAll);
+  document.addEventListener("DOMContentLoaded", () => {
+    part("pictures", () => { window.views = new Views(); });
+    redrawAll();
+    document.documentElement.dataset.ready = "yes";
+  });
+  shown.set(0);
+  redrawAll();
+  window.view3d = view;
+}
+
+main();

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The 3D view: map, paths and cameras, drawn only when something has changed.
+
+// A context that a software renderer can serve too; null without WebGL.
+function webglContext(canvas) {
+  if (typeof THREE === "undefined") return null;
+  const probe = document.createElement("canvas").getContext("webgl2");
+  if (!probe) return null;
+  const info = probe.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(probe.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  const software = /swiftshader|llvmpipe|software|basic render/i.test(name);
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  const context = canvas.getContext("webgl2", { antialias: !software, alpha: false, powerPreference: "high-performance" });
+  return context && { context, software };
+}
+
+const kPointsInMotion = 10000;
+
+class Scene3D {
+  constructor(canvas, { context, software }) {
+    this.canvas = canvas;
+    this.software = software;
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
+    this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
+    this.scene = new THREE.Scene();
+    this.world = new THREE.Group();  // metres where the scale is known; y up, as the map's y points down
+    this.world.rotation.x = Math.PI;
+    this.world.scale.setScalar(run.scale);
+    this.scene.add(this.world);
+    this.layers = {};
+    this.measure();
+    this.viewpoint = new Viewpoint(canvas, this.world, this.middle, this.radius, () => this.request());
+    this.build();
+    shown.listen(() => this.showFrame());
+    redraws.push(() => this.restyle());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.resize();
+    this.restyle();
+  }
+
+  measure() {
+    const { low, high } = boxOfRun();
+    const at = (corner) => this.world.localToWorld(new THREE.Vector3(...corner));
+    this.world.updateMatrixWorld();
+    this.middle = at(low).add(at(high)).multiplyScalar(0.5);
+    this.radius = Math.max(at(low).distanceTo(at(high)) / 2, 0.1);
+    this.floor = high[1];
+  }
+
+  add(name, object) {
+    this.layers[name] = object;
+    object.frustumCulled = false;
+    this.world.add(object);
+    return object;
+  }
+
+  static geometry(positions) {
+    return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  }
+
+  // The same points in an order whose beginning is spread over all of them.
+  static mixed(positions) {
+    const count = positions.length / 3;
+    const step = [7919, 7907].find((prime) => count % prime !== 0) ?? 1;
+    const result = new Float32Array(positions.length);
+    for (let i = 0; i < count; ++i) {
+      const from = 3 * ((i * step) % count);
+      result.set(positions.subarray(from, from + 3), 3 * i);
+    }
+    return result;
+  }
+
+  // A path as the segments between its points.
+  static joined(positions) {
+    const ends = [];
+    for (let i = 3; i < positions.length; i += 3) ends.push(...positions.subarray(i - 3, i + 3));
+    return new Float32Array(ends);
+  }
+
+  // Segments `width` pixels wide, which plain lines of WebGL cannot be; coloured: each in a colour of its own.
+  addWide(name, ends, width, coloured) {
+    if (ends.length === 0) return;
+    const geometry = new THREE.LineSegmentsGeometry().setPositions(ends);
+    if (coloured) geometry.setColors(new Float32Array(ends.length));
+    this.add(name, new THREE.LineSegments2(geometry, new THREE.LineMaterial({ linewidth: width, vertexColors: coloured })));
+  }
+
+  // colourOf(i): of the i-th segment.
+  paint(name, count, colourOf) {
+    if (!this.layers[name]) return;
+    const { data } = this.layers[name].geometry.attributes.instanceColorStart;
+    for (let i = 0; i < count; ++i) {
+      const { r, g, b } = colourOf(i);
+      data.array.set([r, g, b, r, g, b], 6 * i);
+    }
+    data.needsUpdate = true;
+  }
+
+  build() {
+    const plain = () => new THREE.LineBasicMaterial();
+    this.add("grid", new THREE.LineSegments(Scene3D.geometry(this.gridEnds()), plain()));
+    this.add("points", new THREE.Points(Scene3D.geometry(Scene3D.mixed(run.points)), new THREE.PointsMaterial({ size: 2, sizeAttenuation: false })));
+    this.addWide("lines", run.lines.ends, 2, true);
+    this.pathRows = [];  // the later frame of each step of the path
+    const steps = [];
+    for (let row = 1; row < run.frames.count; ++row) {
+      if (!run.hasPose(row) || !run.hasPose(row - 1)) continue;
+      this.pathRows.push(row);
+      for (const r of [row - 1, row]) steps.push(...run.poses.subarray(7 * r, 7 * r + 3));
+    }
+    this.addWide("path", new Float32Array(steps), 3, true);
+    if (run.truth) this.addWide("truth", Scene3D.joined(run.truth.positions), 1.5, false);
+    const size = 0.05 * this.radius / run.scale;
+    const small = [];
+    for (let i = 0; i < run.keyframes.length; i += 7) small.push(...this.frustum(run.keyframes.subarray(i, i + 7), 0.6 * size));
+    this.add("keyframes", new THREE.LineSegments(Scene3D.geometry(new Float32Array(small)), plain()));
+    this.eye = this.add("eye", new THREE.LineSegments(Scene3D.geometry(new Float32Array(this.frustum([0, 0, 0, 0, 0, 0, 1], 1.6 * size))), plain()));
+  }
+
+  // A camera as 8 segments, `size` deep.
+  frustum([x, y, z, qx, qy, qz, qw], size) {
+    const [fx, fy] = run.pinhole, [width, height] = run.imageSize;
+    const w = Math.min(Math.max(width / 2 / fx, 0.2), 2), h = Math.min(Math.max(height / 2 / fy, 0.2), 2);
+    const turn = new THREE.Quaternion(qx, qy, qz, qw);
+    const corner = (u, v) => new THREE.Vector3(u * w, v * h, 1).multiplyScalar(size).applyQuaternion(turn).add(new THREE.Vector3(x, y, z)).toArray();
+    const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+    return corners.flatMap((c, i) => [x, y, z, ...c, ...c, ...corners[(i + 1) % 4]]);
+  }
+
+  // Squares of 1 m (or of a power of ten that suits the map) at the height of the lowest points.
+  gridEnds() {
+    const extent = 2 * this.radius / run.scale;
+    const step = run.metres_per_unit && this.radius < 40 ? 1 / run.scale : 10 ** Math.floor(Math.log10(extent / 4));
+    const { low, high } = boxOfRun();
+    const [left, near] = [0, 2].map((a) => step * (Math.floor(low[a] / step) - 1));
+    const [right, far] = [0, 2].map((a) => step * (Math.ceil(high[a] / step) + 1));
+    const ends = [];
+    for (let x = left; x <= right + step / 2; x += step) ends.push(x, this.floor, near, x, this.floor, far);
+    for (let z = near; z <= far + step / 2; z += step) ends.push(left, this.floor, z, right, this.floor, z);
+    return new Float32Array(ends);
+  }
+
+  restyle() {
+    const ink = (name) => new THREE.Color(colour(name));
+    this.scene.background = ink("stage");
+    for (const [name, from] of [["grid", "grid"], ["points", "points"], ["truth", "truth"], ["keyframes", "accent"], ["eye", "accent"]])
+      this.layers[name]?.material.color.copy(ink(from));
+    const axes = [...kAxes, "none"].map(ink);
+    this.paint("lines", run.lines.axes.length, (i) => axes[run.lines.axes[i]] ?? axes[3]);
+    const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
+    this.paint("path", this.pathRows.length, (i) => states[run.state(this.pathRows[i])] ?? states.manhattan);
+    this.showFrame();
+  }
+
+  setLayer(name, on) {
+    if (this.layers[name]) this.layers[name].visible = on;
+    this.request();
+  }
+
+  showFrame() {
+    const posed = run.frames.count > 0 && run.hasPose(shown.row);
+    this.eye.visible = posed;
+    if (posed) {
+      const [x, y, z, qx, qy, qz, qw] = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
+      this.eye.position.set(x, y, z);
+      this.eye.quaternion.set(qx, qy, qz, qw);
+      this.viewpoint.showFrame();
+    }
+    this.request();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (width === 0 || height === 0) return;
+    const first = this.width === undefined;
+    this.width = width;
+    this.renderer.setSize(width, height, false);
+    this.viewpoint.shape(width / height);
+    if (first) this.viewpoint.home();
+    this.draw();
+  }
+
+  request() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  // A software renderer draws some of the points while the view moves, all of them when it rests.
+  draw(resting = !this.software) {
+    this.waiting = false;
+    clearTimeout(this.rest);
+    const { geometry } = this.layers.points;
+    const abridged = !resting && geometry.attributes.position.count > kPointsInMotion;
+    geometry.setDrawRange(0, abridged ? kPointsInMotion : Infinity);
+    this.renderer.render(this.scene, this.viewpoint.camera);
+    if (!this.software) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits: else frames would queue up
+    if (abridged) this.rest = setTimeout(() => this.draw(true), 200);
+  }
+}

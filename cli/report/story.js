@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What went wrong and where, in words.
+
+const kWarnings = 5;  // in full
+
+// Runs of rows for which same(row) gives equal, not null, answers.
+function spansOf(count, same) {
+  const spans = [];
+  for (let row = 0; row < count; ++row) {
+    const key = same(row);
+    const last = spans[spans.length - 1];
+    if (key === null) continue;
+    if (last && last.to === row - 1 && last.key === key) last.to = row;
+    else spans.push({ key, from: row, to: row });
+  }
+  return spans;
+}
+
+// "too few matches (10), no consensus (2)": the most frequent first.
+function reasonsIn(span) {
+  const counts = new Map();
+  for (let row = span.from; row <= span.to; ++row) {
+    const reason = run.reason(row);
+    if (reason) counts.set(reason, (counts.get(reason) ?? 0) + 1);
+  }
+  const sorted = [...counts].sort((a, b) => b[1] - a[1]);
+  if (sorted.length === 1) return sorted[0][0];
+  return sorted.map(([reason, count]) => `${reason} (${count})`).join(", ");
+}
+
+function whereOf(span) {
+  if (span.from === span.to) return `frame ${run.frames.text("index", span.from)}, at ${clock(span.from)}`;
+  return `frames ${run.frames.text("index", span.from)} to ${run.frames.text("index", span.to)}, ` +
+    `${clock(span.from)} to ${clock(span.to)}`;
+}
+
+function because(span) {
+  const reasons = reasonsIn(span);
+  return reasons ? `: ${reasons}` : "";
+}
+
+function spanStory(span, first) {
+  const length = span.to - span.from + 1;
+  const next = span.to + 1 < run.frames.count ? run.state(span.to + 1) : "";
+  if (span.key === "lost") {
+    let after = "; not found again before the end";
+    if (next === "initialising") after = "; the map was given up and a new one begun";
+    else if (next) after = `; found again at frame ${run.frames.text("index", span.to + 1)}`;
+    return { state: "lost", text: `Lost for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}${after}.`, row: span.from, length };
+  }
+  if (span.key === "fallback") {
+    return {
+      state: "fallback", row: span.from, length,
+      text: `Six degrees of freedom in place of the Manhattan rotation for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}.`,
+    };
+  }
+  const late = length > 30 || length > 0.1 * run.frames.count;
+  const what = next ? `The ${first ? "first" : "next"} map stood after ${countOf(length, "frame")}` : `No map after ${countOf(length, "frame")}`;
+  return { state: late ? "lost" : "initialising", text: `${what} (${whereOf(span)})${because(span)}.`, row: span.from, length };
+}
+
+// The longest in full, then a count.
+function longest(items, atMost, noun) {
+  if (items.length <= atMost) return items;
+  const kept = [...items].sort((a, b) => b.length - a.length).slice(0, atMost);
+  const rest = items.filter((item) => !kept.includes(item));
+  const frames = rest.reduce((sum, item) => sum + item.length, 0);
+  return [...kept.sort((a, b) => a.row - b.row),
+    { state: items[0].state, text: `And ${countOf(rest.length, "shorter span")} ${noun}, ${countOf(frames, "frame")} in all.` }];
+}
+
+function greatest(values) {
+  let best = -1;
+  for (let row = 0; row < values.length; ++row)
+    if (!Number.isNaN(values[row]) && (best < 0 || values[row] > values[best])) best = row;
+  return best;
+}
+
+function tellStory() {
+  const items = [];
+  const { metrics, frames } = run;
+  for (const problem of run.problems) items.push({ state: "lost", text: problem });
+  if (frames.count > 0 && metrics.tracked === 0) {
+    const all = { from: 0, to: frames.count - 1 };
+    items.push({ state: "lost", text: `No frame was tracked${because(all)}.` });
+  }
+  if (frames.count === 0) items.push({ state: "lost", text: "frames.csv holds no frame: nothing is shown over time." });
+  if (metrics.interrupted) items.push({ state: "lost", text: `The run was interrupted after ${countOf(frames.count, "frame")}.` });
+  if (frames.has("state")) {
+    // A frame that is found again says so where the loss is told.
+    const noted = (row) => ["lost", "fallback", "initialising"].includes(run.state(row)) && run.reason(row) !== "relocalised";
+    const spans = spansOf(frames.count, (row) => (noted(row) ? run.state(row) : null));
+    const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
+    items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 4, "of the same"));
+  }
+  const unseen = metrics.frames_without_normal_evidence;
+  if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals gave no Manhattan evidence: lines alone spoke for the axes there.` });
+  const worst = run.errors ? greatest(run.errors.position_m) : -1;
+  if (worst >= 0) items.push({ state: "manhattan", text: `The largest position error is ${figure(run.errors.position_m[worst])} m (${whereOf({ from: worst, to: worst })}).`, row: worst });
+  const slowest = frames.has("frame_ms") ? greatest(frames.all("frame_ms")) : -1;
+  if (slowest >= 0) items.push({ state: "manhattan", text: `The slowest frame took ${figure(frames.number("frame_ms", slowest))} ms (${whereOf({ from: slowest, to: slowest })}).`, row: slowest });
+  const warnings = metrics.warnings ?? [];
+  for (const warning of warnings.slice(0, kWarnings)) items.push({ state: "fallback", text: String(warning) });
+  if (warnings.length > kWarnings) items.push({ state: "fallback", text: `And ${countOf(warnings.length - kWarnings, "more warning")}, in metrics.json.` });
+  return items;
+}
+
+function headline() {
+  const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.state(row)).filter((s) => s === state).length;
+  const lost = rows("lost"), fallback = rows("fallback");
+  if (run.frames.count === 0) return "";
+  if (run.metrics.tracked === 0) return "No frame was tracked: below stands why.";
+  const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];
+  parts.push(fallback === 0 ? "the Manhattan rotation held in every frame with a map" : `${countOf(fallback, "frame")} by the fallback`);
+  return `${parts.join("; ")}.`;
+}
+
+function showStory() {
+  byId("headline").textContent = headline();
+  for (const item of tellStory()) {
+    const line = element("li", {}, element("i", { style: `background: var(--${item.state})` }), element("span", {}, item.text));
+    if (item.row !== undefined && run.frames.count > 0)
+      line.append(element("button", { type: "button", onclick: () => shown.set(item.row) }, "Show"));
+    byId("story").append(line);
+  }
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the 3D view is looked at from: orbit by mouse, touch and keys, home, and along with the shown camera.
+
+class Viewpoint {
+  // world: the group in which the map stands; middle and radius: of what is to be seen; changed: asks for a picture.
+  constructor(canvas, world, middle, radius, changed) {
+    Object.assign(this, { world, middle, radius, changed });
+    this.follows = false;
+    this.camera = new THREE.PerspectiveCamera(50, 1, radius / 500, 60 * radius);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", changed);
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    this.home();
+  }
+
+  setFollow(on) {
+    this.follows = on;
+    if (on) this.behind();
+    else this.home();
+  }
+
+  // Where the shown camera stands, and which way it looks over the floor.
+  heading() {
+    const pose = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
+    const at = this.world.localToWorld(new THREE.Vector3(pose[0], pose[1], pose[2]));
+    const [x, , z] = forwardOf(pose);
+    return { at, angle: Math.atan2(x, -z) };
+  }
+
+  behind() {
+    if (run.frames.count === 0 || !run.hasPose(shown.row)) return;
+    const { at, angle } = this.heading();
+    this.angle = angle;
+    const back = 0.45 * this.radius;
+    this.controls.target.copy(at);
+    this.camera.position.set(at.x - back * Math.sin(angle), at.y + 0.45 * back, at.z - back * Math.cos(angle));
+    this.controls.update();
+    this.changed();
+  }
+
+  // Goes along with the shown camera and turns with it, from wherever the user looks at it.
+  chase() {
+    const { at, angle } = this.heading();
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyAxisAngle(new THREE.Vector3(0, 1, 0), angle - (this.angle ?? angle));
+    this.angle = angle;
+    this.controls.target.copy(at);
+    this.camera.position.copy(at).add(offset);
+    this.controls.update();
+  }
+
+  // Goes along with the shown frame if it is to.
+  showFrame() {
+    if (this.follows) this.chase();
+  }
+
+  shape(aspect) {
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+  }
+
+  home() {
+    const reach = 1.9 * this.radius * Math.max(1, 0.85 / this.camera.aspect);
+    this.controls.target.copy(this.middle);
+    this.camera.position.copy(this.middle).add(new THREE.Vector3(-0.35, 0.75, 0.62).multiplyScalar(reach));
+    this.controls.update();
+    this.changed();
+  }
+
+  reset() {
+    if (this.follows) this.behind();
+    else this.home();
+  }
+
+  // right and up in radians, nearer as a factor.
+  orbit(right, up, nearer) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const length = offset.length() * nearer;
+    const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) - up, 0.05), Math.PI - 0.05);
+    const azimuth = Math.atan2(offset.x, offset.z) + right;
+    offset.set(Math.sin(polar) * Math.sin(azimuth), Math.cos(polar), Math.sin(polar) * Math.cos(azimuth)).multiplyScalar(length);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.changed();
+  }
+
+  key(event) {
+    const turns = { ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.08, 1], ArrowDown: [0, -0.08, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1.1] };
+    const turn = turns[event.key];
+    if (!turn || event.ctrlKey || event.metaKey) return;
+    this.orbit(...turn);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report's page, built into the program from the files in cli/report.
+#pragma once
+
+#include <string_view>
+
+namespace sslam::cli {
+
+// The page in order; the gaps are for the data (JSON) and the views (base64, a line each).
+struct ReportPage {
+  std::string_view before_data, before_views, after_views;
+};
+
+[[nodiscard]] ReportPage report_page();
+
+}  // namespace sslam::cli

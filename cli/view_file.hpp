@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The views of a run's frames in a file: "SSLAMVW1", then each view behind its size (u32).
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/byte_writer.hpp"
+#include "sslam/io/bad_entries.hpp"
+#include "sslam/io/output_file.hpp"
+#include "sslam/io/text.hpp"
+
+namespace sslam::cli {
+
+inline constexpr std::string_view kViewMagic = "SSLAMVW1";
+
+// Throws io::Error when it cannot be written.
+inline void write_views(const std::filesystem::path& path, std::span<const std::string> views) {
+  io::OutputFile file(path);
+  file.stream() << kViewMagic;
+  for (const std::string& view : views) {
+    ByteWriter size;
+    size.put(static_cast<std::uint32_t>(view.size()));
+    file.stream() << size.bytes << view;
+  }
+  file.commit();
+}
+
+// The views that are whole. Throws io::Error when the file cannot be read or is none; a warning says where it
+// is cut off.
+[[nodiscard]] inline std::vector<std::string> read_views(const std::filesystem::path& path,
+                                                         io::Warnings& warnings) {
+  const std::string text = io::read_text(path);
+  std::string_view left = text;
+  if (!left.starts_with(kViewMagic)) throw io::Error(path.string() + ": holds no views of a run");
+  left.remove_prefix(kViewMagic.size());
+  std::vector<std::string> views;
+  while (!left.empty()) {
+    std::uint32_t size = 0;
+    if (left.size() >= sizeof size) std::memcpy(&size, left.data(), sizeof size);
+    if (left.size() < sizeof size || left.size() - sizeof size < size) {
+      warnings.push_back(path.string() + ": is cut off after " + std::to_string(views.size()) + " views");
+      break;
+    }
+    views.emplace_back(left.substr(sizeof size, size));
+    left.remove_prefix(sizeof size + size);
+  }
+  return views;
+}
+
+}  // namespace sslam::cli

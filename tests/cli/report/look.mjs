@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Opens the reports of a tracked run, of one that gets lost, of one that tracks nothing and of a damaged one, and uses
+// them.
+// Usage: look.mjs SSLAM [FOLDER for screenshots]
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Browser, kNoGl, kSoftwareGl } from "./browser.mjs";
+
+const [, , sslam, pictures] = process.argv;
+const scratch = mkdtempSync(join(tmpdir(), "sslam_report_"));
+const room = join(scratch, "demo/room");
+
+function call(code, ...args) {
+  const done = spawnSync(sslam, args, { encoding: "utf8" });
+  assert.equal(done.status, code, `sslam ${args.join(" ")}\n${done.stdout}${done.stderr}`);
+}
+
+function picture(name) { return pictures && join(pictures, `${name}.png`); }
+
+// The middle of an element, for the mouse.
+function middleOf(page, selector) {
+  return page.run(`(() => { const b = document.querySelector("${selector}").getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+}
+
+async function look(browser, run, options, use) {
+  const page = await browser.open(`file://${join(run, "report.html")}`, options.size, options.dark);
+  await page.until("document.documentElement.dataset.ready");
+  await use(page);
+  assert.deepEqual(page.complaints, [], `complaints of ${run}`);
+  assert.equal(await page.run("document.documentElement.scrollWidth <= innerWidth"), true, "wider than the window");
+  await page.close();
+}
+
+async function useTracked(page) {
+  const three = await page.run("typeof THREE !== 'undefined'");
+  assert.equal(await page.run("run.frames.count"), 60);
+  assert.ok(await page.run("run.points.length > 300 && Boolean(run.errors)"));
+  // Slider and keys go to a frame, and everything goes along.
+  await page.run("byId('slider').value = 40; byId('slider').dispatchEvent(new Event('input'))");
+  assert.equal(await page.run("shown.row"), 40);
+  await page.until("views.view.row === 40 && views.image.complete && views.image.naturalWidth > 0");
+  await page.press("ArrowRight");
+  await page.press("ArrowLeft", 8);
+  assert.equal(await page.run("shown.row"), 31);
+  assert.match(await page.run("byId('frame-name').textContent"), /^31 · 000031\.jpg$/);
+  assert.match(await page.run("document.querySelector('.chart .value').textContent"), /^[0-9.e-]+ m$/);
+  assert.ok(await page.run("views.view.points.length > 100 && views.view.lines.length > 10 && views.view.axes.length === 3"));
+  await page.run("document.querySelector('.chart .plot').scrollIntoView({ block: 'center' })");
+  const chart = await middleOf(page, ".chart .plot");
+  await page.drag(chart, [chart[0] + 2, chart[1]]);
+  assert.ok(await page.run("Math.abs(shown.row - 30) < 6"));
+  await page.run("scrollTo(0, 0)");
+  if (!three) return;
+  // The mouse orbits, layers come and go, the camera is followed.
+  const look = "view3d.viewpoint.camera.position.toArray()";
+  const before = await page.run(look);
+  const middle = await middleOf(page, "#canvas");
+  await page.drag(middle, [middle[0] + 120, middle[1] + 30]);
+  assert.notDeepEqual(await page.run(look), before);
+  const whole = await page.screenshot(picture("orbited"));
+  for (const name of await page.run("[...document.querySelectorAll('#layers [data-layer]')].map((b) => b.dataset.layer)")) {
+    await page.run(`document.querySelector("[data-layer=${name}]").click()`);
+    assert.equal(await page.run(`view3d.layers.${name}.visible`), false);
+  }
+  assert.notEqual(await page.screenshot(picture("no_layers")), whole);
+  for (const key of ["1", "2", "3", "4", "5", "6"]) await page.press(key);
+  assert.ok(await page.run("Object.values(view3d.layers).every((layer) => layer.visible)"));
+  await page.press("f");
+  assert.equal(await page.run("view3d.viewpoint.follows"), true);
+  const followed = await page.run(look);
+  await page.press("End");
+  assert.notDeepEqual(await page.run(look), followed);
+  await page.screenshot(picture("followed"));
+  await page.press("t");
+  assert.equal(await page.run("document.documentElement.dataset.theme"), "dark");
+  await page.screenshot(picture("dark"));
+}
+
+// Images without anything in them, for which the camera is lost.
+async function blindFrames(page) {
+  const jpeg = await page.run(`(() => {
+    const canvas = element("canvas", { width: run.settings.image_size[0], height: run.settings.image_size[1] });
+    canvas.getContext("2d").fillRect(0, 0, canvas.width, canvas.height);
+    return canvas.toDataURL("image/jpeg").split(",")[1];
+  })()`);
+  for (let i = 40; i < 48; ++i) writeFileSync(join(room, `rgb/0000${i}.jpg`), Buffer.from(jpeg, "base64"));
+}
+
+// A run of which half is gone, with figures of other kinds than expected.
+function damage(run) {
+  rmSync(join(run, "map.sslam"));
+  for (const name of ["frames.csv", "views.bin"]) truncateSync(join(run, name), Math.floor(statSync(join(run, name)).size / 2));
+  writeFileSync(join(run, "metrics.json"), '{"tracked": "all", "states": 5, "trajectory": 7, "times": [], "settings": {"dataset": {}, "pinhole": "?"}}');
+  call(0, "report", run);
+}
+
+async function main() {
+  call(0, "demo", join(scratch, "demo"), "--frames", "60");
+  const run = join(scratch, "demo/run"), lost = join(scratch, "lost"), none = join(scratch, "none");
+  call(1, "run", room, "--quiet", "--normals", "none", "--out", none, "--end", "2");
+  assert.ok(!/https?:\/\/(?!www\.w3\.org|threejs\.org|github\.com)[a-z]/.test(readFileSync(join(run, "report.html"), "latin1").split('<script id="data"')[0]));
+
+  const browser = new Browser(kSoftwareGl);
+  try {
+    await look(browser, run, {}, async (page) => {
+      await useTracked(page);
+      await blindFrames(page);
+    });
+    call(0, "run", room, "--quiet", "--normals", "none", "--out", lost);
+    await look(browser, run, { size: { width: 390, height: 844 } }, async (page) => { await page.screenshot(picture("phone")); });
+    await look(browser, lost, {}, async (page) => {
+      assert.match(await page.run("byId('story').textContent"), /Lost for \d+ frames? \(frames 40 to .*too few matches/);
+      await page.run("shown.set(42)");
+      assert.match(await page.run("byId('frame-state').textContent"), /^lost: too few matches/);
+      assert.equal(await page.run("typeof THREE !== 'undefined' && view3d.eye.visible"), false);
+      await page.screenshot(picture("lost"));
+    });
+    damage(lost);
+    await look(browser, lost, {}, async (page) => {
+      assert.match(await page.run("byId('story').textContent"), /map\.sslam: is missing.*views\.bin: is cut off/);
+      await page.press("End");
+      await page.screenshot(picture("damaged"));
+    });
+    await look(browser, none, {}, async (page) => {
+      assert.match(await page.run("byId('story').textContent"), /No frame was tracked/);
+      await page.press("End");
+      await page.screenshot(picture("none"));
+    });
+  } finally {
+    await browser.close();
+  }
+  const plain = new Browser(kNoGl);
+  try {
+    await look(plain, run, {}, async (page) => {
+      assert.match(await page.run("byId('notice').textContent"), /the map is seen from above/);
+      await page.press("End");
+      await page.screenshot(picture("no_webgl"));
+    });
+  } finally {
+    await plain.close();
+  }
+  console.log("1 passed, 0 failed");
+}
+
+try {
+  await main();
+} finally {
+  rmSync(scratch, { recursive: true, force: true });
+}
