@@ -94,6 +94,7 @@
 #include "sslam/track/motion_model.hpp"
 #include "sslam/track/new_landmarks.hpp"
 #include "sslam/track/pipeline.hpp"
+#include "sslam/track/place_recognition.hpp"
 #include "sslam/track/pose_estimate.hpp"
 #include "sslam/track/presets.hpp"
 #include "sslam/track/refinement.hpp"

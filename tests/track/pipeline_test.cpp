@@ -153,6 +153,18 @@ TEST_CASE("A later run finds its place in the map of an earlier one") {
     }
 }
 
+TEST_CASE("Wherever a later run starts in a map its first frame is recognised") {
+  Simulation simulation(walk(150));
+  presets::Structure<double> first;
+  track_all(first, simulation);
+  for (const std::size_t start : {0, 40, 90, 149}) {
+    presets::Structure<double> second;
+    second.resume(first.map());
+    Frame<double> frame = simulation.frame(start);
+    REQUIRE(second.track(frame).reason == Reason::kRelocalised);
+  }
+}
+
 TEST_CASE("A map that does not fit is kept and the frames are lost") {
   Simulation simulation(walk(60));
   presets::Structure<double> first;

@@ -5,11 +5,13 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "sslam/track/backfill.hpp"
 #include "sslam/track/concepts.hpp"
 #include "sslam/track/keyframe_cursor.hpp"
 #include "sslam/track/motion_model.hpp"
+#include "sslam/track/place_recognition.hpp"
 #include "sslam/track/stage_timer.hpp"
 #include "sslam/track/tracking_loss.hpp"
 #include "sslam/track/trajectory_log.hpp"
@@ -34,6 +36,7 @@ class Pipeline {
   Mapping mapping;
   Backfill<S> backfill;
   TrackingLoss<S> loss;
+  PlaceRecognition<S> places;
   Timer timer;
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
@@ -163,13 +166,16 @@ class Pipeline {
     return estimate;
   }
 
-  // Compares a lost frame with its last reference first, then with the other keyframes in turn.
+  // Compares a lost frame with its last reference, then with the keyframes that look most like it, and with
+  // one of all in turn.
   PoseEstimate<S> relocalise(TrackResult<S>& result) {
     result.state = State::kFallback;
+    candidates_.assign(1, cursor_.reference());
+    places.rank(map_, current_->frame, loss.tries, candidates_);
+    candidates_.push_back(loss.next_candidate(map_));
     PoseEstimate<S> estimate;
-    const auto count = static_cast<int>(map_.keyframes.size());
-    for (int i = 0; i < std::min(loss.tries, count) && !estimate.ok(); ++i) {
-      const KeyframeId candidate = i == 0 ? cursor_.reference() : loss.next_candidate(map_);
+    for (auto at = candidates_.begin(); at != candidates_.end() && !estimate.ok(); ++at) {
+      const KeyframeId candidate = *at;
       current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
       estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
       if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
@@ -221,6 +227,7 @@ class Pipeline {
   ConstantVelocity<S> motion_;
   Correspondences<S> scratch_;
   KeyframeCursor<S> cursor_;
+  std::vector<KeyframeId> candidates_;  // for a lost frame
 };
 
 }  // namespace sslam
