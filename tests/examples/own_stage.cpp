@@ -45,7 +45,6 @@ static_assert(InitialisationStage<Survey, double>);
 struct FixedMap {
   void begin(Map<double>&, TrackedFrame<double>&, double) {}
   KeyframeId insert(Map<double>&, TrackedFrame<double>&, double) { return kNone; }
-  void reset() {}
 };
 static_assert(MappingStage<FixedMap, double>);
 

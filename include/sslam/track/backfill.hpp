@@ -28,9 +28,9 @@ class Backfill {
 
   void clear() { waiting_.clear(); }
 
-  // Tracks the waiting frames one after the other, away from the two keyframes of the first map: between them
-  // from the first until track is lost, then from the second; before them backwards. Poses go into the log,
-  // and keyframes into the map, as they do forwards.
+  // Tracks the waiting frames one after the other, away from the first and the last keyframe of the first
+  // map: between them from the first until track is lost, then from the last; before them backwards. Poses go
+  // into the log, and keyframes into the map, as they do forwards.
   template <class Fallback, class Refinement, class Keyframes, class Mapping>
   void run(Map<S>& map, Fallback& fallback, Refinement& refinement, const Keyframes& keyframes,
            Mapping& mapping, TrajectoryLog<S>& log) {
@@ -55,10 +55,11 @@ class Backfill {
       }
       return next;
     };
-    const KeyframeId first = 0, second = 1;
-    const std::ptrdiff_t after_first = position(first, 1), before_second = position(second, 0);
-    const std::ptrdiff_t rest = sweep(first, after_first, before_second, 1);
-    sweep(second, before_second - 1, rest - 1, -1);
+    const KeyframeId first = map.keyframes.front().id, last = map.keyframes.back().id;
+    const std::ptrdiff_t after_first = position(first, 1);
+    const std::ptrdiff_t before_last = std::max(after_first, position(last, 0));
+    const std::ptrdiff_t rest = sweep(first, after_first, before_last, 1);
+    sweep(last, before_last - 1, rest - 1, -1);
     sweep(first, position(first, 0) - 1, -1, -1);
     waiting_.clear();
   }
