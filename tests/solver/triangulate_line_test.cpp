@@ -260,7 +260,8 @@ TEMPLATE_TEST_CASE("line: whatever the views an answer is finite", "", float, do
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed);
     INFO("seed " << seed);
-    const auto views = testing::spoiled<S>(good, random);
+    auto views = testing::spoiled<S>(good, random);
+    if (views.size() > 500) views.resize(500);  // the parallax looks at every pair
     const Vec3<S> along(testing::any_number<S>(random), 1, 0);
     for (const auto& answer : {triangulate_line<S>(views), triangulate_line_along<S>(views, along)}) {
       if (!usable(answer.status)) continue;
