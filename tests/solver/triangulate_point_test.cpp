@@ -174,7 +174,9 @@ TEMPLATE_TEST_CASE("point: whatever the views an answer is finite", "", float, d
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Random random(seed);
     INFO("seed " << seed);
-    const auto answer = triangulate_point<S>(testing::spoiled<S>(good, random));
+    auto views = testing::spoiled<S>(good, random);
+    if (views.size() > 500) views.resize(500);  // the parallax looks at every pair
+    const auto answer = triangulate_point<S>(views);
     if (usable(answer.status)) CHECK((answer.point.allFinite() && answer.covariance.allFinite()));
   }
 }
