@@ -65,7 +65,7 @@ class Runner {
                                     votes.normals.size(),   1};
     const std::span<const LineVote<float>> lines(votes.lines);
     SearchOptions<float> options;
-    options.rotation.normal_floor = std::max(options.rotation.normal_floor, votes.normals.plane_sigma);
+    options.rotation = options.rotation.with_plane_sigma(votes.normals.plane_sigma);
     FrameResult result;
     result.stamp = votes.stamp;
     const auto start = std::chrono::steady_clock::now();

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "cli/byte_writer.hpp"
+#include "sslam/io/byte_archive.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -42,8 +42,8 @@ class Encoder {
 
   [[nodiscard]] std::string encode() {
     const cv::Mat& picture = input_.picture;
-    out_.put(static_cast<std::uint32_t>(input_.row));
-    out_.put(static_cast<float>(picture.cols) / static_cast<float>(picture.rows));
+    out_(static_cast<std::uint32_t>(input_.row));
+    out_(static_cast<float>(picture.cols) / static_cast<float>(picture.rows));
     put_block(small_jpeg(picture));
     put_block(input_.normal_picture.empty() ? std::vector<unsigned char>()
                                             : jpeg(input_.normal_picture, kNormalQuality));
@@ -56,11 +56,11 @@ class Encoder {
 
  private:
   void put_block(const std::vector<unsigned char>& block) {
-    out_.put(static_cast<std::uint32_t>(block.size()));
+    out_(static_cast<std::uint32_t>(block.size()));
     out_.bytes.append(block.begin(), block.end());
   }
 
-  void put_count(std::size_t count) { out_.put(static_cast<std::uint16_t>(count)); }
+  void put_count(std::size_t count) { out_(static_cast<std::uint16_t>(count)); }
 
   // Features are undistorted, the picture is as the lens made it.
   void put_pixel(const Vec2<double>& undistorted) {
@@ -68,8 +68,8 @@ class Encoder {
     const auto share = [](double at, int size) {
       return static_cast<std::uint16_t>(std::lround(std::clamp((at + 0.5) / size, 0.0, 1.0) * 65535));
     };
-    out_.put(share(pixel.x(), input_.picture.cols));
-    out_.put(share(pixel.y(), input_.picture.rows));
+    out_(share(pixel.x(), input_.picture.cols));
+    out_(share(pixel.y(), input_.picture.rows));
   }
 
   void put_points() {
@@ -97,8 +97,8 @@ class Encoder {
     for (const std::size_t i : order) {
       put_pixel(lines[i].segment.start);
       put_pixel(lines[i].segment.end);
-      out_.put(frame_.line_axes[i]);
-      out_.put(static_cast<std::uint8_t>(frame_.line_landmarks[i] != kNone));
+      out_(frame_.line_axes[i]);
+      out_(static_cast<std::uint8_t>(frame_.line_landmarks[i] != kNone));
     }
   }
 
@@ -108,20 +108,20 @@ class Encoder {
     put_count((field.size() + step - 1) / step);
     for (std::size_t i = 0; i < field.size(); i += step)
       for (const auto* component : {&field.x, &field.y, &field.z})
-        out_.put(static_cast<std::int8_t>(std::lround(std::clamp((*component)[i], -1.0F, 1.0F) * 127)));
+        out_(static_cast<std::int8_t>(std::lround(std::clamp((*component)[i], -1.0F, 1.0F) * 127)));
   }
 
   void put_axes() {
     const bool known = frame_.manhattan && input_.world_from_manhattan;
-    out_.put(static_cast<std::uint8_t>(known));
+    out_(static_cast<std::uint8_t>(known));
     if (!known) return;
     const Mat3<double> axes = (frame_.manhattan->cam_from_world * *input_.world_from_manhattan).matrix();
-    for (const double value : axes.reshaped()) out_.put(static_cast<float>(value));
+    for (const double value : axes.reshaped()) out_(static_cast<float>(value));
   }
 
   const FrameViewInput& input_;
   const TrackedFrame<double>& frame_;
-  ByteWriter out_;
+  io::ByteWriter out_;
 };
 
 }  // namespace

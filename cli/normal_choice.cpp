@@ -37,9 +37,10 @@ FileNormals open_files(const fs::path& folder) {
 cv::Mat NormalChoice::small_picture() const {
   constexpr int kColumns = 128;
   if (const auto* network = std::get_if<OnnxNormals>(&source)) {
-    return network->manifest().kind == NetworkOutput::kNormals
-               ? small_normal_picture(network->dense(), kColumns)
-               : small_normal_picture(network->depth().grid());
+    if (network->manifest().kind != NetworkOutput::kNormals)
+      return small_normal_picture(network->depth().grid());
+    const double min_planar = network->options.evidence.min_planar;
+    return small_normal_picture(sample_normals(network->dense(), min_planar, kColumns));
   }
   if (const auto* depth = std::get_if<DepthNormals>(&source)) return small_normal_picture(depth->grid());
   if (const auto* files = std::get_if<FileNormals>(&source)) return small_normal_picture(files->grid());

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "cli/base64.hpp"
-#include "cli/byte_writer.hpp"
+#include "sslam/io/byte_archive.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/evaluation.hpp"
 
@@ -23,8 +23,8 @@ constexpr double kNone64 = std::numeric_limits<double>::quiet_NaN();
 
 template <class Target>
 Json packed(const char* type, std::span<const double> values) {
-  ByteWriter out;
-  for (const double value : values) out.put(static_cast<Target>(value));
+  io::ByteWriter out;
+  for (const double value : values) out(static_cast<Target>(value));
   return {{"type", type}, {"base64", base64(out.bytes)}};
 }
 

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "cli/byte_writer.hpp"
 #include "sslam/io/bad_entries.hpp"
+#include "sslam/io/byte_archive.hpp"
 #include "sslam/io/output_file.hpp"
 #include "sslam/io/text.hpp"
 
@@ -24,8 +23,8 @@ inline void write_views(const std::filesystem::path& path, std::span<const std::
   io::OutputFile file(path);
   file.stream() << kViewMagic;
   for (const std::string& view : views) {
-    ByteWriter size;
-    size.put(static_cast<std::uint32_t>(view.size()));
+    io::ByteWriter size;
+    size(static_cast<std::uint32_t>(view.size()));
     file.stream() << size.bytes << view;
   }
   file.commit();
@@ -36,19 +35,17 @@ inline void write_views(const std::filesystem::path& path, std::span<const std::
 [[nodiscard]] inline std::vector<std::string> read_views(const std::filesystem::path& path,
                                                          io::Warnings& warnings) {
   const std::string text = io::read_text(path);
-  std::string_view left = text;
-  if (!left.starts_with(kViewMagic)) throw io::Error(path.string() + ": holds no views of a run");
-  left.remove_prefix(kViewMagic.size());
+  if (!text.starts_with(kViewMagic)) throw io::Error(path.string() + ": holds no views of a run");
+  io::ByteReader reader{std::string_view(text).substr(kViewMagic.size())};
   std::vector<std::string> views;
-  while (!left.empty()) {
-    std::uint32_t size = 0;
-    if (left.size() >= sizeof size) std::memcpy(&size, left.data(), sizeof size);
-    if (left.size() < sizeof size || left.size() - sizeof size < size) {
-      warnings.push_back(path.string() + ": is cut off after " + std::to_string(views.size()) + " views");
-      break;
+  try {
+    while (!reader.left().empty()) {
+      std::uint32_t size = 0;
+      reader(size);
+      views.emplace_back(reader.take(size));
     }
-    views.emplace_back(left.substr(sizeof size, size));
-    left.remove_prefix(sizeof size + size);
+  } catch (const io::Error&) {
+    warnings.push_back(path.string() + ": is cut off after " + std::to_string(views.size()) + " views");
   }
   return views;
 }

@@ -71,6 +71,7 @@
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/map/bundle_write_back.hpp"
 #include "sslam/map/frame.hpp"
+#include "sslam/map/free_ids.hpp"
 #include "sslam/map/keyframe.hpp"
 #include "sslam/map/landmark.hpp"
 #include "sslam/map/local_map.hpp"

@@ -357,18 +357,11 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
 TEMPLATE_TEST_CASE("whatever the votes and the prior the answer is finite", "[rotation]", float, double) {
   using S = TestType;
   Random draws(15);
-  VoteScene<S> good(15, test::any_rotation(draws));
-  for (int k = 0; k < 3; ++k) {
-    good.add_plane(k, 300, 4);
-    good.add_lines(k, 20, 0.006);
-  }
+  const auto good = test::corner<S>(15, test::any_rotation(draws), 300);
   const auto prior = prior_off_by<S>(good.truth, draws, 3);
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed);
-    VoteScene<S> scene = good;
-    scene.votes = testing::spoiled<S>(good.votes, random);
-    for (auto* component : {&scene.x, &scene.y, &scene.z})
-      testing::spoil<S>(std::span(*component), static_cast<int>(random.below(2)), random);
+    const auto scene = good.spoiled(random);
     auto spoiled_prior = prior;
     if (seed % 3 == 0) testing::spoil<S>(std::span(&spoiled_prior, 1), 1, random);
     const auto estimate = track(scene, spoiled_prior);

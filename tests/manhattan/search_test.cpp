@@ -6,7 +6,6 @@
 
 #include "sslam/manhattan/search.hpp"
 #include "support/catch.hpp"
-#include "support/spoiled_input.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -219,17 +218,10 @@ TEMPLATE_TEST_CASE("whatever the votes the search answers with a finite rotation
                    double) {
   using S = TestType;
   Random draws(15);
-  VoteScene<S> good(15, test::any_rotation(draws));
-  for (int k = 0; k < 3; ++k) {
-    good.add_plane(k, 100, 4);
-    good.add_lines(k, 20, 0.006);
-  }
+  const auto good = test::corner<S>(15, test::any_rotation(draws), 100);
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
     Random random(seed);
-    VoteScene<S> scene = good;
-    scene.votes = testing::spoiled<S>(good.votes, random);
-    for (auto* component : {&scene.x, &scene.y, &scene.z})
-      testing::spoil<S>(std::span(*component), static_cast<int>(random.below(2)), random);
+    const auto scene = good.spoiled(random);
     const auto estimate = find_manhattan<S>(scene.normals(), scene.lines(), SearchOptions<S>{}, seed);
     INFO("seed " << seed << ", " << name(estimate.status));
     CHECK(estimate.cam_from_manhattan.matrix().allFinite());

@@ -12,6 +12,7 @@
 #include "sslam/geometry/so3.hpp"
 #include "sslam/manhattan/votes.hpp"
 #include "support/random_draws.hpp"
+#include "support/spoiled_input.hpp"
 
 namespace sslam::test {
 
@@ -78,9 +79,29 @@ struct VoteScene {
     }
   }
 
+  // A copy with some odd numbers in it.
+  [[nodiscard]] VoteScene spoiled(Random& odd) const {
+    VoteScene scene = *this;
+    scene.votes = testing::spoiled<S>(votes, odd);
+    for (auto* component : {&scene.x, &scene.y, &scene.z})
+      testing::spoil<S>(std::span(*component), static_cast<int>(odd.below(2)), odd);
+    return scene;
+  }
+
   [[nodiscard]] NormalView<S> normals() const { return {x.data(), y.data(), z.data(), nullptr, x.size(), 1}; }
   [[nodiscard]] std::span<const LineVote<S>> lines() const { return votes; }
 };
+
+// A corner: `normals` on each of three planes, and 20 segments along each axis.
+template <Scalar S>
+VoteScene<S> corner(std::uint64_t seed, const SO3<double>& cam_from_manhattan, int normals) {
+  VoteScene<S> scene(seed, cam_from_manhattan);
+  for (int k = 0; k < 3; ++k) {
+    scene.add_plane(k, normals, 4);
+    scene.add_lines(k, 20, 0.006);
+  }
+  return scene;
+}
 
 // Degrees between an estimate and the truth of a scene, with the names of the axes as they are.
 template <Scalar S>

@@ -53,7 +53,8 @@ Frame<double> view_of(const Map<double>& map, KeyframeId keyframe, Random& rando
 std::vector<KeyframeId> ranked(const Map<double>& map, const Frame<double>& frame, int most) {
   PlaceRecognition<double> places;
   std::vector<KeyframeId> answer;
-  places.rank(map, frame, most, answer);
+  places.most = most;
+  places.rank(map, frame, answer);
   return answer;
 }
 

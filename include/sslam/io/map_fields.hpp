@@ -3,46 +3,16 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "sslam/io/error.hpp"
+#include "sslam/io/byte_archive.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam::io {
-
-// Appends numbers to `bytes`.
-struct MapWriter {
-  static constexpr bool kReads = false;
-  std::string bytes;
-
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
-};
-
-// Takes numbers from the front of a view; throws Error at its end.
-class MapReader {
- public:
-  static constexpr bool kReads = true;
-  explicit MapReader(std::string_view bytes) : left_(bytes) {}
-
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void operator()(T& value) {
-    if (left_.size() < sizeof value) throw Error("ends too early");
-    std::memcpy(&value, left_.data(), sizeof value);
-    left_.remove_prefix(sizeof value);
-  }
-  [[nodiscard]] std::string_view left() const noexcept { return left_; }
-
- private:
-  std::string_view left_;
-};
 
 // Walks the fields of a map with an archive, in an order that the file's version stands for.
 template <class Archive>

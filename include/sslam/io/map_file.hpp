@@ -3,7 +3,6 @@
 // its checksum (FNV-1a, 64 bit), and then the fields of map_fields.hpp.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +18,6 @@ namespace sslam::io {
 
 namespace map_file_detail {
 
-static_assert(std::endian::native == std::endian::little);
 inline constexpr std::string_view kMagic = "SSLAMMAP";
 inline constexpr std::uint32_t kVersion = 1;
 
@@ -46,12 +44,12 @@ struct Header {
 // Throws Error when it cannot be written.
 inline void save_map(const std::filesystem::path& path, const Map<double>& map) {
   namespace detail = map_file_detail;
-  MapWriter payload;
+  ByteWriter payload;
   MapFields(payload).walk(const_cast<Map<double>&>(map));  // a writer only reads
   detail::Header header;
   header.size = payload.bytes.size();
   header.checksum = detail::checksum(payload.bytes);
-  MapWriter head;
+  ByteWriter head;
   header.fields(head);
   OutputFile file(path);
   file.stream() << detail::kMagic << head.bytes << payload.bytes;
@@ -67,7 +65,7 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
   if (!std::string_view(bytes).starts_with(detail::kMagic))
     throw Error(path.string() + ": is no map; wants a map.sslam that `sslam run` has written");
   try {
-    MapReader head{std::string_view(bytes).substr(detail::kMagic.size())};
+    ByteReader head{std::string_view(bytes).substr(detail::kMagic.size())};
     detail::Header header;
     header.fields(head);
     if (header.version != detail::kVersion)
@@ -77,7 +75,7 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
       throw Error("holds " + std::to_string(head.left().size()) + " bytes of map where " +
                   std::to_string(header.size) + " belong: cut off, or written to since");
     if (detail::checksum(head.left()) != header.checksum) throw Error("is damaged: its checksum is wrong");
-    MapReader payload{head.left()};
+    ByteReader payload{head.left()};
     Map<double> map;
     MapFields(payload).walk(map);
     check_map(map);

@@ -2,6 +2,7 @@
 // What a Manhattan rotation kernel is told and what it answers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,13 @@ struct ManhattanOptions {
   // The frame.
   S max_deviation = radians(S(10));  // standard deviation, by votes alone, up to which a rotation is observed
   S max_jump = radians(S(45));       // a turn from the prior by more than this is a flip, not a motion
+
+  // For normals whose planes are each off by plane_sigma, as a network's are: radians, per component.
+  [[nodiscard]] ManhattanOptions with_plane_sigma(S plane_sigma) const noexcept {
+    ManhattanOptions options = *this;
+    options.normal_floor = std::max(normal_floor, plane_sigma);
+    return options;
+  }
 };
 
 // The predicted rotation, and how far it may be off: the covariance of its left perturbation, camera frame,

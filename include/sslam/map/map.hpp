@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/map/free_ids.hpp"
 #include "sslam/map/keyframe.hpp"
 
 namespace sslam {
@@ -47,7 +48,7 @@ class Map {
     point.viewing_direction.setZero();
     point.first_keyframe = creator;
     point.visible = point.found = 1;
-    return settle(points, free_points_, std::move(point));
+    return free_points_.settle(points, std::move(point));
   }
 
   LandmarkId add_line(const Line3<S>& line, const Vec3<S>& start, const Vec3<S>& end, KeyframeId creator) {
@@ -57,7 +58,7 @@ class Map {
     landmark.end = end;
     landmark.first_keyframe = creator;
     landmark.visible = landmark.found = 1;
-    return settle(lines, free_lines_, std::move(landmark));
+    return free_lines_.settle(lines, std::move(landmark));
   }
 
   void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
@@ -82,13 +83,8 @@ class Map {
 
   // Finds the ids that can be given away in landmarks that were filled in from outside.
   void collect_free_ids() {
-    const auto collect = [](const auto& landmarks, std::vector<LandmarkId>& free) {
-      free.clear();
-      for (std::size_t i = 0; i < landmarks.size(); ++i)
-        if (!landmarks[i].alive) free.push_back(static_cast<LandmarkId>(i));
-    };
-    collect(points, free_points_);
-    collect(lines, free_lines_);
+    free_points_.collect(points);
+    free_lines_.collect(lines);
   }
 
   // Withdraws one observation; a landmark left with fewer than two goes too.
@@ -157,19 +153,6 @@ class Map {
   }
 
  private:
-  template <class Landmark>
-  static LandmarkId settle(std::vector<Landmark>& landmarks, std::vector<LandmarkId>& free,
-                           Landmark landmark) {
-    if (free.empty()) {
-      landmarks.push_back(std::move(landmark));
-      return static_cast<LandmarkId>(landmarks.size() - 1);
-    }
-    const LandmarkId id = free.back();
-    free.pop_back();
-    landmarks[index(id)] = std::move(landmark);
-    return id;
-  }
-
   template <class Landmarks>
   static void enter(std::vector<LandmarkId>& seen, Landmarks& landmarks, KeyframeId keyframe) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -194,7 +177,7 @@ class Map {
   }
 
   template <class Landmarks, class Member>
-  void erase(Landmarks& landmarks, std::vector<LandmarkId>& free, LandmarkId id, Member seen) {
+  void erase(Landmarks& landmarks, FreeIds& free, LandmarkId id, Member seen) {
     auto& landmark = landmarks[index(id)];
     if (!landmark.alive) return;
     for (const Observation& o : landmark.observations) {
@@ -204,7 +187,7 @@ class Map {
     landmark.observations.clear();
     landmark.observations.shrink_to_fit();
     landmark.alive = false;
-    free.push_back(id);
+    free.add(id);
   }
 
   // True when too few observations are left.
@@ -251,8 +234,8 @@ class Map {
                      [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
   }
 
-  std::vector<LandmarkId> free_points_, free_lines_;  // ids of erased landmarks
-  std::vector<std::int32_t> shared_;                  // scratch of update_covisibility
+  FreeIds free_points_, free_lines_;
+  std::vector<std::int32_t> shared_;  // scratch of update_covisibility
 };
 
 }  // namespace sslam

@@ -41,12 +41,11 @@ struct NormalEvidence {
   double agreement = 0;     // of neighbouring planar normals
 };
 
-namespace normal_evidence_detail {
-
-inline NormalGrid sample(const DenseNormals& dense, const NormalEvidenceOptions& options) {
+// The planar ones among every n-th normal, at most `max_columns` across.
+[[nodiscard]] inline NormalGrid sample_normals(const DenseNormals& dense, double min_planar,
+                                               int max_columns) {
   NormalGrid grid;
-  const int step =
-      std::max(1, (dense.normal.cols + options.max_columns - 1) / std::max(options.max_columns, 1));
+  const int step = std::max(1, (dense.normal.cols + max_columns - 1) / std::max(max_columns, 1));
   const int first = step / 2;
   grid.reset((dense.normal.cols - first + step - 1) / step, (dense.normal.rows - first + step - 1) / step);
   for (int r = 0; r < grid.rows; ++r) {
@@ -54,13 +53,15 @@ inline NormalGrid sample(const DenseNormals& dense, const NormalEvidenceOptions&
       const int v = first + r * step, u = first + c * step;
       const cv::Vec3f& n = dense.normal(v, u);
       const auto i = static_cast<std::size_t>(r * grid.columns + c);
-      if (n == cv::Vec3f() || (!dense.planar.empty() && dense.planar(v, u) < options.min_planar)) continue;
+      if (n == cv::Vec3f() || (!dense.planar.empty() && dense.planar(v, u) < min_planar)) continue;
       grid.normal[i] = {n[0], n[1], n[2]};
       grid.weight[i] = dense.weight(v, u);
     }
   }
   return grid;
 }
+
+namespace normal_evidence_detail {
 
 inline NormalEvidence judge(const NormalGrid& grid, const NormalEvidenceOptions& options) {
   const auto min_cosine = static_cast<float>(std::cos(radians(options.agree_deg)));
@@ -94,7 +95,7 @@ inline NormalEvidence judge(const NormalGrid& grid, const NormalEvidenceOptions&
 inline NormalEvidence select_normals(const DenseNormals& dense, const NormalEvidenceOptions& options,
                                      NormalField& field) {
   field.clear();
-  const NormalGrid grid = normal_evidence_detail::sample(dense, options);
+  const NormalGrid grid = sample_normals(dense, options.min_planar, options.max_columns);
   const NormalEvidence evidence = normal_evidence_detail::judge(grid, options);
   if (!evidence.enough) return evidence;
   if (dense.planar.empty()) {

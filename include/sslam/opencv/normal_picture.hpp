@@ -86,22 +86,6 @@ inline cv::Mat_<cv::Point2f> grid_positions(const DenseNormals& dense, const Cam
   return picture;
 }
 
-// Every n-th pixel of a network's answer, as it is: at most `columns` across.
-[[nodiscard]] inline cv::Mat_<cv::Vec3b> small_normal_picture(const DenseNormals& dense, int columns,
-                                                              double min_planar = 0.5) {
-  const int step = std::max(1, (dense.normal.cols + columns - 1) / columns);
-  cv::Mat_<cv::Vec3b> picture((dense.normal.rows + step - 1) / step, (dense.normal.cols + step - 1) / step,
-                              no_normal());
-  for (int v = 0; v < picture.rows; ++v) {
-    for (int u = 0; u < picture.cols; ++u) {
-      const cv::Vec3f& n = dense.normal(v * step, u * step);
-      const bool planar = dense.planar.empty() || dense.planar(v * step, u * step) >= min_planar;
-      if (planar && n != cv::Vec3f()) picture(v, u) = encode_normal(n);
-    }
-  }
-  return picture;
-}
-
 // One pixel a normal.
 [[nodiscard]] inline cv::Mat_<cv::Vec3b> small_normal_picture(const NormalGrid& grid) {
   cv::Mat_<cv::Vec3b> picture(grid.rows, grid.columns, no_normal());

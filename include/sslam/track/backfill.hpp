@@ -42,7 +42,7 @@ class Backfill {
     };
     const auto sweep = [&](KeyframeId from, std::ptrdiff_t begin, std::ptrdiff_t end, std::ptrdiff_t step) {
       cursor_.move_to(from);
-      leave(map.keyframes[map.index(from)]);
+      previous_.read_back(map.keyframes[map.index(from)]);
       std::ptrdiff_t next = begin;  // after the last frame that was tracked
       for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= max_misses; i += step) {
         TrackedFrame<S>& frame = waiting_[static_cast<std::size_t>(i)];
@@ -50,7 +50,7 @@ class Backfill {
         if (!estimate.ok()) continue;
         cursor_.advance(map, frame, estimate, keyframes, mapping);
         log.add(map, frame.frame.index, frame.frame.stamp, cursor_.reference(), frame.cam_from_world);
-        leave(frame);
+        previous_.read_back(frame);
         next = i + step;
       }
       return next;
@@ -71,14 +71,6 @@ class Backfill {
     frame.cam_from_world = previous_.cam_from_world;
     const PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame);
     return estimate.ok() ? refinement.refine(map, nullptr, frame) : estimate;
-  }
-
-  // The next frame is looked for from this frame or keyframe.
-  template <class View>
-  void leave(const View& view) {
-    previous_.point_landmarks = view.point_landmarks;
-    previous_.line_landmarks = view.line_landmarks;
-    previous_.cam_from_world = view.cam_from_world;
   }
 
   std::deque<TrackedFrame<S>> waiting_;

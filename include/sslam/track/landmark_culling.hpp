@@ -20,7 +20,7 @@ class LandmarkCulling {
   // Tests the landmarks that are still young as of keyframe `now`; others have passed.
   void cull(Map<S>& map, KeyframeId now) const {
     for (KeyframeId k = std::max(0, now - probation); k <= now; ++k) {
-      const Keyframe<S>& keyframe = map.keyframes[map.index(k)];  // young ones are seen from these alone
+      const Keyframe<S>& keyframe = map.keyframes[map.index(k)];  // the creator of every young one is here
       test(keyframe.point_landmarks, map.points, now, [&](LandmarkId id) { map.erase_point(id); });
       test(keyframe.line_landmarks, map.lines, now, [&](LandmarkId id) { map.erase_line(id); });
     }

@@ -171,7 +171,7 @@ class Pipeline {
   PoseEstimate<S> relocalise(TrackResult<S>& result) {
     result.state = State::kFallback;
     candidates_.assign(1, cursor_.reference());
-    places.rank(map_, current_->frame, loss.tries, candidates_);
+    places.rank(map_, current_->frame, candidates_);
     candidates_.push_back(loss.next_candidate(map_));
     PoseEstimate<S> estimate;
     for (auto at = candidates_.begin(); at != candidates_.end() && !estimate.ok(); ++at) {

@@ -14,12 +14,13 @@ namespace sslam {
 template <Scalar S>
 class PlaceRecognition {
  public:
+  int most = 3;           // keyframes to compare a frame with
   int max_distance = 60;  // bits between a landmark's descriptor and that of its feature
   S max_ratio = S(0.8);   // to the next best feature: landmarks that look like several do not vote
   int min_votes = 8;      // landmarks that a keyframe must share with the frame
 
   // Appends up to `most` keyframes to `ranked`, those that share most landmarks with the frame first.
-  void rank(const Map<S>& map, const Frame<S>& frame, int most, std::vector<KeyframeId>& ranked) {
+  void rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked) {
     vote(map, frame);
     order_.clear();
     for (std::size_t k = 0; k < votes_.size(); ++k)

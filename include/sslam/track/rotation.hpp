@@ -2,7 +2,6 @@
 // The rotation stage: where the Manhattan frame is seen, it gives each frame's rotation without drift.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -38,7 +37,7 @@ class ManhattanRotation {
     const NormalView<float> normals{n.x.data(), n.y.data(), n.z.data(), n.weight.data(), n.size()};
     frame.line_axes.assign(frame.frame.lines.size(), kNone);
     SearchOptions<S> options = search;
-    options.rotation.normal_floor = std::max(options.rotation.normal_floor, static_cast<S>(n.plane_sigma));
+    options.rotation = search.rotation.with_plane_sigma(static_cast<S>(n.plane_sigma));
     ManhattanEstimate<S> estimate;
     if (world_from_manhattan_) {
       const ManhattanPrior<S> prior{predicted_cam_from_world * *world_from_manhattan_};

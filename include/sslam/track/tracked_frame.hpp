@@ -34,11 +34,12 @@ struct TrackedFrame {
     line_landmarks.assign(frame.lines.size(), kNone);
   }
 
-  // Takes over what the map has made of this frame since it joined as a keyframe.
-  void read_back(const Keyframe<S>& keyframe) {
-    cam_from_world = keyframe.cam_from_world;
-    point_landmarks = keyframe.point_landmarks;
-    line_landmarks = keyframe.line_landmarks;
+  // Takes over the pose and the matches, not the features: from the keyframe that this frame has become, say.
+  template <class View>
+  void read_back(const View& view) {
+    cam_from_world = view.cam_from_world;
+    point_landmarks = view.point_landmarks;
+    line_landmarks = view.line_landmarks;
   }
 
   [[nodiscard]] Keyframe<S> to_keyframe() const {

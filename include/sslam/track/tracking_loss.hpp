@@ -10,7 +10,6 @@ namespace sslam {
 template <Scalar S>
 class TrackingLoss {
  public:
-  int tries = 3;              // keyframes to compare a lost frame with, of those that look most like it
   int young_map = 5;          // keyframes: a map lost while it has fewer is given up and started anew
   int give_up_after = 15;     // lost frames with enough features until that happens
   int telling_features = 50;  // points plus lines that make a frame speak for or against the map
