@@ -98,6 +98,15 @@ void visit_parameters(Pipeline& p, Visit visit) {
     visit("mapping.redundant_share", p.mapping.keyframe_culling.redundant_share, Unit::kNumber,
           "of a keyframe's landmarks, seen well elsewhere: it is removed (over 1: never)");
   }
+  if constexpr (requires { p.loops.detection; }) {
+    visit("loops.candidates", p.loops.detection.places.most, Unit::kNumber,
+          "places to compare a new keyframe with; 0: no loop is closed");
+    visit("loops.min_inliers", p.loops.detection.refinement.acceptance.min_inliers, Unit::kNumber,
+          "points plus lines that must be seen again");
+    visit("loops.max_turn", p.loops.detection.max_turn, Unit::kDegrees, "of the world that a loop may undo");
+    visit("loops.max_scale_drift", p.loops.detection.max_scale_drift, Unit::kNumber,
+          "that a loop may undo, factor");
+  }
 }
 
 }  // namespace sslam::cli

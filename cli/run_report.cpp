@@ -26,10 +26,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 void write_frames(const fs::path& path, const RunOutcome& outcome) {
-  std::vector<std::string> columns{"index",         "stamp",        "image",      "state",
-                                   "reason",        "points",       "lines",      "normals",
-                                   "point_inliers", "line_inliers", "axes_seen",  "keyframe",
-                                   "points_ms",     "lines_ms",     "normals_ms", "extraction_ms"};
+  std::vector<std::string> columns{
+      "index",       "stamp",     "image",         "state",        "reason",       "points",
+      "lines",       "normals",   "point_inliers", "line_inliers", "axes_seen",    "keyframe",
+      "loop_closed", "points_ms", "lines_ms",      "normals_ms",   "extraction_ms"};
   for (int s = 0; s < kStageCount; ++s) columns.push_back(std::string(name(static_cast<Stage>(s))) + "_ms");
   columns.insert(columns.end(), {"tracking_ms", "frame_ms"});
   io::CsvWriter csv(path, columns);
@@ -37,12 +37,12 @@ void write_frames(const fs::path& path, const RunOutcome& outcome) {
   for (const FrameRecord& f : outcome.frames) {
     const auto& r = f.result;
     csv.row(r.index, r.stamp, f.image, std::string(name(r.state)), std::string(name(r.reason)), f.points,
-            f.lines, f.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, ms(f.points_ms),
-            ms(f.lines_ms), ms(f.normals_ms), ms(f.extraction_ms), ms(f.stage_ms[0]), ms(f.stage_ms[1]),
-            ms(f.stage_ms[2]), ms(f.stage_ms[3]), ms(f.stage_ms[4]), ms(f.stage_ms[5]), ms(f.tracking_ms),
-            ms(f.frame_ms()));
+            f.lines, f.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, r.loop_closed,
+            ms(f.points_ms), ms(f.lines_ms), ms(f.normals_ms), ms(f.extraction_ms), ms(f.stage_ms[0]),
+            ms(f.stage_ms[1]), ms(f.stage_ms[2]), ms(f.stage_ms[3]), ms(f.stage_ms[4]), ms(f.stage_ms[5]),
+            ms(f.stage_ms[6]), ms(f.tracking_ms), ms(f.frame_ms()));
   }
-  static_assert(kStageCount == 6, "one cell for each stage");
+  static_assert(kStageCount == 7, "one cell for each stage");
   csv.commit();
 }
 
@@ -101,6 +101,11 @@ Json times_json(const RunOutcome& outcome) {
           {"frame_ms", quantiles(frame)},
           {"extraction_ms", quantiles(extraction)},
           {"tracking_ms", quantiles(tracking)}};
+}
+
+std::size_t count_loops(const RunOutcome& outcome) {
+  return static_cast<std::size_t>(std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                                                [](const FrameRecord& f) { return f.result.loop_closed; }));
 }
 
 Json states_json(const RunOutcome& outcome) {
@@ -183,6 +188,7 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
     std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
                 outcome.frames.size());
+  if (const std::size_t loops = count_loops(outcome); loops > 0) std::printf("loops closed     %zu\n", loops);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
   std::printf("written to       %s\n", context.settings.out.c_str());
 }
@@ -212,6 +218,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"keyframes", outcome.keyframes.size()},
                   {"points", count_alive(outcome.map.points)},
                   {"lines", count_alive(outcome.map.lines)},
+                  {"loops", count_loops(outcome)},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"times", times_json(outcome)}};

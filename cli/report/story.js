@@ -93,6 +93,9 @@ function tellStory() {
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
     items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 4, "of the same"));
   }
+  const loops = frames.has("loop_closed") ? Array.from({ length: frames.count }, (_, row) => row).filter((row) => frames.number("loop_closed", row) === 1) : [];
+  for (const row of loops)
+    items.push({ state: "manhattan", row, length: 1, text: `A loop was closed: a place known from before was met again (${whereOf({ from: row, to: row })}).` });
   const unseen = metrics.frames_without_normal_evidence;
   if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals gave no Manhattan evidence: lines alone spoke for the axes there.` });
   const worst = run.errors ? greatest(run.errors.position_m) : -1;

@@ -179,3 +179,24 @@ TEST_CASE("a similarity scales, then moves") {
           1e-12 * std::exp(xi[6]));
   }
 }
+
+TEMPLATE_TEST_CASE("a similarity's adjoint takes tangents from its right to its left", "", float, double) {
+  using S = TestType;
+  Random random(4);
+  for (int i = 0; i < 20; ++i) {
+    const auto a = Sim3<S>::exp(tangent_of_angle<Sim3<S>>(S(1.3), random));
+    const auto xi = tangent_of_angle<Sim3<S>>(S(0.4), random);
+    CHECK(group_distance(a * Sim3<S>::exp(xi), Sim3<S>::exp(a.adjoint() * xi) * a) < rounding<S>(200));
+  }
+}
+
+TEST_CASE("a similarity's logarithm follows small motions from the left") {
+  Random random(5);
+  for (const double angle : {0.0, 1e-3, 0.1, 1.0}) {
+    const auto xi = tangent_of_angle<Sim3<double>>(angle, random);
+    const auto numeric =
+        numeric_jacobian([&](const Sim3<double>& x) { return x.log(); }, Sim3<double>::exp(xi));
+    CAPTURE(angle);
+    CHECK((Sim3<double>::left_jacobian_inverse(xi) - numeric).cwiseAbs().maxCoeff() < 2e-5);
+  }
+}

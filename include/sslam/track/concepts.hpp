@@ -6,6 +6,7 @@
 #include <concepts>
 #include <optional>
 
+#include "sslam/track/loop_closing.hpp"
 #include "sslam/track/pose_estimate.hpp"
 #include "sslam/track/rotation.hpp"
 #include "sslam/track/translation.hpp"
@@ -61,6 +62,12 @@ template <class T, class S>
 concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
   { stage.insert(map, frame, S{}) } -> std::same_as<KeyframeId>;
   stage.begin(map, frame, S{});
+};
+
+// Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift.
+template <class T, class S>
+concept LoopStage = requires(T stage, Map<S>& map) {
+  { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
 };
 
 }  // namespace sslam

@@ -22,15 +22,16 @@ class LandmarkFusion {
     const auto around = local_.keyframes;
     const auto neighbour_points = local_.points;
     const auto neighbour_lines = local_.lines;
-    fuse_into(map, id, neighbour_points, neighbour_lines);
+    take_in(map, id, neighbour_points, neighbour_lines);
     for (std::size_t i = 1; i < around.size(); ++i)
-      fuse_into(map, around[i], map.keyframes[map.index(id)].point_landmarks,
-                map.keyframes[map.index(id)].line_landmarks);
+      take_in(map, around[i], map.keyframes[map.index(id)].point_landmarks,
+              map.keyframes[map.index(id)].line_landmarks);
   }
 
- private:
-  void fuse_into(Map<S>& map, KeyframeId target, std::vector<LandmarkId> point_ids,
-                 std::vector<LandmarkId> line_ids) {
+  // The keyframe observes those of the landmarks that it shows; what it saw in their stead becomes one with
+  // them.
+  void take_in(Map<S>& map, KeyframeId target, std::vector<LandmarkId> point_ids,
+               std::vector<LandmarkId> line_ids) {
     const Keyframe<S>& kf = map.keyframes[map.index(target)];
     grid_.build(kf.frame.points, kf.frame.width, kf.frame.height);
     for (const LandmarkId id : point_ids)
@@ -41,11 +42,12 @@ class LandmarkFusion {
         fuse_line(map, target, id);
   }
 
-  static bool sees(const LandmarkCommon& landmark, KeyframeId keyframe) {
+  [[nodiscard]] static bool sees(const LandmarkCommon& landmark, KeyframeId keyframe) {
     return std::any_of(landmark.observations.begin(), landmark.observations.end(),
                        [&](const Observation& o) { return o.keyframe == keyframe; });
   }
 
+ private:
   void fuse_point(Map<S>& map, KeyframeId target, LandmarkId id) {
     const Keyframe<S>& kf = map.keyframes[map.index(target)];
     const PointLandmark<S>& landmark = map.points[map.index(id)];

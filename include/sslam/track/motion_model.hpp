@@ -26,6 +26,12 @@ class ConstantVelocity {
     seen_ = true;
   }
 
+  // The pose is another because the world has moved; lengths are `scale` times what they were.
+  void move_to(const SE3<S>& cam_from_world, S scale) {
+    pose_ = cam_from_world;
+    velocity_.template tail<3>() *= scale;
+  }
+
   // Forgets the velocity and keeps the pose: after a loss, or where a pose came from elsewhere.
   void stop() noexcept { moving_ = seen_ = false; }
 

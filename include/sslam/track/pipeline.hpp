@@ -20,7 +20,8 @@ namespace sslam {
 
 template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisation,
           TranslationStage<S> Translation, FallbackStage<S> Fallback, RefinementStage<S> Refinement,
-          KeyframeStage<S> Keyframes, MappingStage<S> Mapping, StageTimer Timer = NoTimer>
+          KeyframeStage<S> Keyframes, MappingStage<S> Mapping, LoopStage<S> Loops = NoLoopClosing<S>,
+          StageTimer Timer = NoTimer>
 class Pipeline {
  public:
   Pipeline() = default;
@@ -34,6 +35,7 @@ class Pipeline {
   Refinement refinement;
   Keyframes keyframes;
   Mapping mapping;
+  Loops loops;
   Backfill<S> backfill;
   TrackingLoss<S> loss;
   PlaceRecognition<S> places;
@@ -111,9 +113,26 @@ class Pipeline {
       result.reason = Reason::kRelocalised;
     }
     result.keyframe = cursor_.advance(map_, *current_, estimate, keyframes, mapping);
-    if (result.keyframe) timer.end(Stage::kMapping);
     motion_.update(current_->cam_from_world, result.stamp);
+    if (result.keyframe) {
+      timer.end(Stage::kMapping);
+      close_loop(result);
+    }
     log_.add(map_, result.index, result.stamp, cursor_.reference(), current_->cam_from_world);
+  }
+
+  // The frame has just become a keyframe; the world may move under it.
+  void close_loop(TrackResult<S>& result) {
+    const LoopAnswer<S> answer = loops.close(map_, cursor_.reference());
+    result.loop_closed = answer.closed;
+    if (answer.closed) {
+      current_->read_back(map_.keyframes[map_.index(cursor_.reference())]);
+      if (!answer.new_from_old.empty()) log_.follow(answer.new_from_old);
+      const bool rescaled = !answer.new_from_old.empty();
+      motion_.move_to(current_->cam_from_world,
+                      rescaled ? answer.new_from_old[map_.index(cursor_.reference())].scale : S(1));
+    }
+    timer.end(Stage::kLoops);
   }
 
   RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {

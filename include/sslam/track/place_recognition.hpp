@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Place recognition: which keyframes show what a lost frame shows, by the landmarks that its features look
-// like. There is no vocabulary: every feature is compared with every landmark.
+// Place recognition: which keyframes show what a frame shows, by the landmarks that its features look like.
+// There is no vocabulary: a landmark votes when one feature looks like it, and no other nearly as much.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "sslam/track/descriptor_buckets.hpp"
 #include "sslam/track/match_points.hpp"
 
 namespace sslam {
@@ -20,8 +22,12 @@ class PlaceRecognition {
   int min_votes = 8;      // landmarks that a keyframe must share with the frame
 
   // Appends up to `most` keyframes to `ranked`, those that share most landmarks with the frame first.
-  void rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked) {
-    vote(map, frame);
+  // Keyframes in `apart_from` are not asked for, nor is what they see.
+  void rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked,
+            std::span<const KeyframeId> apart_from = {}) {
+    votes_.assign(map.keyframes.size(), 0);
+    vote(map, map.points, &Keyframe<S>::point_landmarks, frame.points, apart_from);
+    vote(map, map.lines, &Keyframe<S>::line_landmarks, frame.lines, apart_from);
     order_.clear();
     for (std::size_t k = 0; k < votes_.size(); ++k)
       if (votes_[k] >= min_votes) order_.push_back(static_cast<KeyframeId>(k));
@@ -32,19 +38,38 @@ class PlaceRecognition {
   }
 
  private:
-  void vote(const Map<S>& map, const Frame<S>& frame) {
-    votes_.assign(map.keyframes.size(), 0);
-    for (const PointLandmark<S>& landmark : map.points) {
-      if (!landmark.alive) continue;
-      BestTwo two;
-      for (std::size_t i = 0; i < frame.points.size(); ++i)
-        two.offer(hamming(landmark.descriptor, frame.points[i].descriptor), static_cast<std::int32_t>(i));
-      if (!two.accepted(max_distance, max_ratio)) continue;
-      for (const Observation& o : landmark.observations) ++votes_[map.index(o.keyframe)];
+  template <class Landmarks, class Seen, class Features>
+  void vote(const Map<S>& map, const Landmarks& landmarks, Seen seen, const Features& features,
+            std::span<const KeyframeId> apart_from) {
+    excluded_.assign(landmarks.size(), 0);
+    for (const KeyframeId k : apart_from)
+      for (const LandmarkId id : map.keyframes[map.index(k)].*seen)
+        if (id != kNone) excluded_[map.index(id)] = 1;
+    buckets_.build(features);
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+      if (!landmarks[i].alive || excluded_[i] != 0 || !looks_like_one(landmarks[i].descriptor, features))
+        continue;
+      for (const Observation& o : landmarks[i].observations) ++votes_[map.index(o.keyframe)];
     }
   }
 
-  std::vector<int> votes_;  // of each keyframe
+  // The buckets find what may be the best feature; all of them decide whether it is the only one.
+  template <class Features>
+  [[nodiscard]] bool looks_like_one(const Descriptor& descriptor, const Features& features) const {
+    bool close = false;
+    buckets_.near(descriptor, [&](std::int32_t f) {
+      close = close || hamming(descriptor, features[Map<S>::index(f)].descriptor) <= max_distance;
+    });
+    if (!close) return false;
+    BestTwo two;
+    for (std::size_t i = 0; i < features.size(); ++i)
+      two.offer(hamming(descriptor, features[i].descriptor), static_cast<std::int32_t>(i));
+    return two.accepted(max_distance, max_ratio);
+  }
+
+  DescriptorBuckets buckets_;
+  std::vector<std::uint8_t> excluded_;  // by landmark
+  std::vector<int> votes_;              // of each keyframe
   std::vector<KeyframeId> order_;
 };
 

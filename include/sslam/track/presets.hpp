@@ -7,6 +7,7 @@
 #include "sslam/track/fallback.hpp"
 #include "sslam/track/initialisation.hpp"
 #include "sslam/track/keyframe_choice.hpp"
+#include "sslam/track/loop_closing.hpp"
 #include "sslam/track/mapping.hpp"
 #include "sslam/track/pipeline.hpp"
 #include "sslam/track/refinement.hpp"
@@ -20,27 +21,28 @@ template <Scalar S>
 using BundleMapping = KeyframeMapping<S, MapAdjustment<S, BundleSolver<S>>>;
 
 // Decoupled tracking with the Manhattan frame, fallback, refinement against the local map, local bundle
-// adjustment.
+// adjustment, loop closing.
 template <Scalar S, StageTimer Timer = NoTimer>
 using Structure =
     Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
-             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, Timer>;
+             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, LoopClosing<S>, Timer>;
 
 // The same as published (Li et al. 2020): landmarks stay as they were triangulated.
 template <Scalar S, StageTimer Timer = NoTimer>
 using Paper =
     Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
-             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, KeyframeMapping<S>, Timer>;
+             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, KeyframeMapping<S>, NoLoopClosing<S>, Timer>;
 
 // No Manhattan world: points and lines alone.
 template <Scalar S, StageTimer Timer = NoTimer>
-using Features = Pipeline<S, NoRotation<S>, DecoupledInitialisation<S>, NoTranslation<S>, FeatureFallback<S>,
-                          LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, Timer>;
+using Features =
+    Pipeline<S, NoRotation<S>, DecoupledInitialisation<S>, NoTranslation<S>, FeatureFallback<S>,
+             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, LoopClosing<S>, Timer>;
 
 // Frame to frame, without refinement against the local map.
 template <Scalar S, StageTimer Timer = NoTimer>
 using Odometry =
     Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
-             NoRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, Timer>;
+             NoRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, NoLoopClosing<S>, Timer>;
 
 }  // namespace sslam::presets

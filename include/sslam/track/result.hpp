@@ -74,8 +74,9 @@ struct TrackResult {
   SE3<S> cam_from_world;  // meaningful where has_pose()
   int point_inliers = 0;
   int line_inliers = 0;
-  int axes_seen = 0;      // Manhattan axes with support: 3, 2, 1 or 0
-  bool keyframe = false;  // this frame joined the map
+  int axes_seen = 0;         // Manhattan axes with support: 3, 2, 1 or 0
+  bool keyframe = false;     // this frame joined the map
+  bool loop_closed = false;  // and showed a place that was known from before
 
   [[nodiscard]] bool has_pose() const noexcept {
     return state == State::kManhattan || state == State::kFallback;

@@ -13,9 +13,10 @@ enum class Stage : std::uint8_t {
   kTranslation,
   kFallback,
   kRefinement,
-  kMapping
+  kMapping,
+  kLoops
 };
-inline constexpr int kStageCount = 6;
+inline constexpr int kStageCount = 7;
 
 [[nodiscard]] constexpr const char* name(Stage stage) noexcept {
   switch (stage) {
@@ -31,6 +32,8 @@ inline constexpr int kStageCount = 6;
       return "refinement";
     case Stage::kMapping:
       return "mapping";
+    case Stage::kLoops:
+      return "loops";
   }
   return "unknown";
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "sslam/geometry/sim3.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam {
@@ -23,6 +25,12 @@ class TrajectoryLog {
   void add(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference,
            const SE3<S>& cam_from_world) {
     entries_.push_back({index, stamp, reference, cam_from_world * map.pose(reference).inverse()});
+  }
+
+  // Keyframes have moved by similarities: distances from them change with their scale.
+  void follow(std::span<const Sim3<S>> new_from_old) {
+    for (TrajectoryEntry<S>& entry : entries_)
+      entry.frame_from_reference.translation *= new_from_old[Map<S>::index(entry.reference)].scale;
   }
 
   // cam_from_world of an entry, by its keyframe's pose as it is now.
