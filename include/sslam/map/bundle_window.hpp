@@ -17,7 +17,6 @@ struct BundleWindowOptions {
   std::size_t max_free = 7;     // keyframes that move: the newest and its closest neighbours
   std::size_t max_held = 15;    // keyframes around them that see the same landmarks and stay where they are
   bool manhattan = true;        // tie keyframe rotations and line directions to the Manhattan axes
-  SO3<S> world_from_manhattan;  // its columns are the axes that lines follow
   S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
 };
 
@@ -141,7 +140,8 @@ class BundleWindow {
   }
 
   void add_lines(const Map<S>& map, const BundleWindowOptions<S>& options) {
-    const Mat3<S> axes = options.world_from_manhattan.matrix();
+    const bool known = options.manhattan && map.world_from_manhattan;
+    const Mat3<S> axes = known ? map.world_from_manhattan->matrix() : Mat3<S>(Mat3<S>::Zero());
     std::erase_if(lines, [&](LandmarkId id) {
       const LineLandmark<S>& landmark = map.lines[map.index(id)];
       const auto first = graph.line_edges.size();
@@ -156,7 +156,7 @@ class BundleWindow {
         return true;
       }
       graph.lines.push_back({landmark.line, to_int(first), to_int(graph.line_edges.size()), std::nullopt});
-      if (options.manhattan && landmark.axis != kNone) graph.lines.back().axis = axes.col(landmark.axis);
+      if (known && landmark.axis != kNone) graph.lines.back().axis = axes.col(landmark.axis);
       return false;
     });
   }
