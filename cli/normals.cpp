@@ -15,7 +15,7 @@
 #include "cli/image_camera.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/normal_files.hpp"
-#include "cli/progress.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/shipped_model.hpp"
 #include "sslam/io/open_dataset.hpp"
 #include "sslam/io/statistics.hpp"
@@ -156,8 +156,8 @@ void run_normals(const NormalsSettings& settings) {
   NormalWriter writer(std::move(model), std::move(camera), settings.out);
   FrameReader reader(dataset);
   std::vector<std::string> failures;
-  Progress progress(dataset.frames.size(),
-                    dataset.frames.size() > 1 ? settings.verbosity : Verbosity::kQuiet);
+  const bool told = dataset.frames.size() > 1 || settings.verbosity == Verbosity::kJson;
+  Progress progress(dataset.frames.size(), told ? settings.verbosity : Verbosity::kQuiet, "normals");
   const Interrupt interrupt;
   for (const io::FrameEntry& entry : dataset.frames) {
     if (Interrupt::asked()) break;
@@ -196,8 +196,7 @@ void add_normals_command(CLI::App& app) {
                           "; default camera.yaml beside the images, else a pinhole with the network's view");
   command->add_option("--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
       ->capture_default_str();
-  command->add_flag_callback(
-      "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "no progress");
+  add_progress_options(*command, s->verbosity, false);
   command->callback([s] { run_normals(*s); });
 }
 

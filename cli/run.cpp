@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cli/camera_choice.hpp"
 #include "cli/commands.hpp"
@@ -12,7 +13,9 @@
 #include "cli/exit_code.hpp"
 #include "cli/image_file.hpp"
 #include "cli/messages.hpp"
+#include "cli/overlay_video.hpp"
 #include "cli/presets.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/report.hpp"
 #include "cli/run_report.hpp"
 #include "cli/shipped_model.hpp"
@@ -99,14 +102,20 @@ void run(RunSettings settings) {
   stream_settings.normals = choose_normals(settings.normals);
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
-  stream_settings.keep_pictures = settings.report;
+  stream_settings.keep_pictures = settings.report || !settings.video.empty();
+  std::optional<OverlayVideo> video;
+  if (!settings.video.empty()) {
+    video.emplace(settings.video, dataset, camera.camera);
+    track.watcher = [&video](const auto&... seen) { video->add(seen...); };
+  }
   FrameStream stream(dataset, std::move(stream_settings));
   if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
-  Progress progress(stream.size(), settings.verbosity);
+  Progress progress(stream.size(), settings.verbosity, "run");
   const RunOutcome outcome = preset.run(stream, track, progress);
   print_warnings(outcome.warnings);
   write_run({settings, dataset, camera.source, camera.camera}, outcome);
   if (settings.report) write_report(settings.out);
+  if (video) video->commit();
   if (outcome.interrupted) {
     print_warning("interrupted; what had been computed was written");
     throw Stop{ExitCode::kInterrupted};
@@ -156,10 +165,11 @@ void add_run_command(CLI::App& app) {
   command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command->add_option("--video", s->video,
+                      "Overlay video to write, .mp4 or .avi: features, segments by axis, normals, state");
   command->add_flag_callback(
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
-  command->add_flag_callback(
-      "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
+  add_progress_options(*command, s->verbosity, true);
   command->callback([s] { run(*s); });
 }
 

@@ -2,10 +2,8 @@
 // `sslam synth DIR`: renders a house that is known to the last edge.
 #include "cli/synth.hpp"
 
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -19,6 +17,7 @@
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/synth_files.hpp"
 #include "cli/synth_names.hpp"
 #include "cli/worker_threads.hpp"
@@ -41,18 +40,11 @@ double stamp_of(const SynthSettings& settings, std::size_t frame) {
   return std::round(static_cast<double>(frame) / settings.rate * 1e6) * 1e-6;
 }
 
-void show_progress(std::size_t done, std::size_t total, Clock::time_point start) {
-  if (isatty(fileno(stderr)) == 0) return;
-  std::fprintf(stderr, "\rsynth %zu/%zu  %.0f frames/s ", done, total,
-               static_cast<double>(done) / seconds_since(start));
-}
-
 // Renders and writes the frames on all threads; returns how many from the first on are complete.
 std::size_t render_frames(const SynthSettings& settings, const synth::House& house, const synth::View& view,
                           std::size_t frames) {
-  const Clock::time_point start = Clock::now();
+  Progress progress(frames, settings.verbosity, "synth");
   const synth::Sensor sensor(settings.sensor, settings.house.seed);
-  std::atomic<std::size_t> done{0};
   std::vector<std::uint8_t> written(frames, 0);
   const auto pose_at = [&](double t) { return house.path.world_from_cam(t).inverse(); };
   WorkerThreads(settings.threads).run(frames, [&] {
@@ -65,10 +57,10 @@ std::size_t render_frames(const SynthSettings& settings, const synth::House& hou
       sensor.expose(frame, static_cast<int>(i), stamp, rgb);
       writer.write(static_cast<int>(i), frame, rgb);
       written[i] = 1;
-      if (!settings.quiet) show_progress(++done, frames, start);
+      progress.show("rendered");
     };
   });
-  if (!settings.quiet && isatty(fileno(stderr)) != 0) std::fputc('\n', stderr);
+  progress.finish();
   return static_cast<std::size_t>(std::find(written.begin(), written.end(), 0) - written.begin());
 }
 
@@ -228,7 +220,7 @@ void add_synth_command(CLI::App& app) {
       "--no-normals", [settings] { settings->normals = false; }, "leave the normal images out");
   synth->add_option("--threads", settings->threads, "default one for each processor; the result is the same")
       ->check(CLI::Range(1, 1024).description(""));
-  synth->add_flag("--quiet", settings->quiet, "no progress");
+  add_progress_options(*synth, settings->verbosity, false);
   synth->callback([settings] { run_synth(*settings); });
 }
 
