@@ -2,8 +2,10 @@
 // `sslam`: parses the command line, runs one subcommand, turns whatever goes wrong into one line and an exit
 // code.
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <opencv2/core/utils/logger.hpp>
 #include <string>
 
 #include "cli/commands.hpp"
@@ -37,6 +39,7 @@ int run_main(int argc, char** argv) {
   add_eval_command(app);
   add_normals_command(app);
   add_report_command(app);
+  add_export_command(app);
   add_synth_command(app);
   add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
@@ -53,6 +56,9 @@ int run_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace sslam::cli;
+  // What goes wrong in OpenCV comes back to us, and is told in one line.
+  if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
     return run_main(argc, argv);
   } catch (const Stop& stop) {
