@@ -53,7 +53,7 @@ void add_demo_command(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(10, 100000));
   command->add_option("--seed", s->seed, "Of the room and of the run")->capture_default_str();
-  command->add_option("--normals", s->normals, kNormalsMeaning);
+  command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   add_progress_options(*command, s->verbosity, true);
   command->callback([s] { run_demo(*s); });
 }

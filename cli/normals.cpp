@@ -188,14 +188,18 @@ void add_normals_command(CLI::App& app) {
   auto s = std::make_shared<NormalsSettings>();
   command->add_option("IMAGES", s->images, "image, folder of images, dataset, quoted glob, or video")
       ->required();
-  command->add_option("--model", s->model,
-                      "ONNX file with its manifest (.json) beside it; default the network that comes with "
-                      "sslam");
-  command->add_option("--camera", s->camera,
-                      "camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names() +
-                          "; default camera.yaml beside the images, else a pinhole with the network's view");
+  command
+      ->add_option("--model", s->model,
+                   "ONNX file with its manifest (.json) beside it; default the network that comes with sslam")
+      ->type_name("FILE");
+  command
+      ->add_option("--camera", s->camera,
+                   "camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names() +
+                       "; default camera.yaml beside the images, else a pinhole with the network's view")
+      ->type_name("FILE");
   command->add_option("--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("DIR");
   add_progress_options(*command, s->verbosity, false);
   command->callback([s] { run_normals(*s); });
 }

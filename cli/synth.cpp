@@ -17,6 +17,7 @@
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/option_info.hpp"
 #include "cli/progress_options.hpp"
 #include "cli/synth_files.hpp"
 #include "cli/synth_names.hpp"
@@ -105,8 +106,11 @@ void run_synth(const SynthSettings& settings) {
 template <class Value>
 void add_choice(CLI::App& app, const std::string& flag, Value& target,
                 const std::map<std::string, Value>& names, const std::string& meaning) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : names) words.push_back(name);
   app.add_option_function<std::string>(
          flag, [&target, &names](const std::string& word) { target = names.at(word); }, meaning)
+      ->type_name(words_type(words))
       ->check([&names](const std::string& word) {
         if (names.count(word) != 0) return std::string();
         std::string known;
@@ -129,7 +133,7 @@ void add_scene_options(CLI::App& synth, SynthSettings& s) {
       "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
       "between walls); the last two for a single room; default manhattan");
   synth.add_option("--rooms", s.house.rooms, "1, or 3 along a corridor; default 1")
-      ->check(CLI::IsMember({1, 3}).description(""));
+      ->check(CLI::IsMember({1, 3}));
   add_choice(
       synth, "--path", s.house.path, kPathNames,
       "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
@@ -213,7 +217,7 @@ void add_synth_command(CLI::App& app) {
   add_scene_options(*synth, *settings);
   add_camera_options(*synth, *settings);
   synth->add_option("--image-format", settings->image_format, "jpg (quality 95) or png; default jpg")
-      ->check(CLI::IsMember({"jpg", "png"}).description(""));
+      ->check(CLI::IsMember({"jpg", "png"}));
   synth->add_flag_callback(
       "--no-depth", [settings] { settings->depth = false; }, "leave the depth images out");
   synth->add_flag_callback(
