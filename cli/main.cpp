@@ -78,7 +78,8 @@ int run_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace sslam::cli;
-  // What goes wrong in OpenCV comes back to us, and is told in one line.
+  // What goes wrong in OpenCV, and below it in FFmpeg, comes back to us, and is told in one line.
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/colmap_model.hpp"
 #include "cli/room_copy.hpp"
 #include "sslam/geometry/se3.hpp"
 #include "sslam/io/trajectory.hpp"
 #include "support/catch.hpp"
+#include "support/colmap_model.hpp"
 
 namespace fs = std::filesystem;
 using namespace sslam::testing;

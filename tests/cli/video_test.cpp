@@ -148,7 +148,7 @@ TEST_CASE("a video that cannot be made is refused before the run") {
   require_no_leftover(scratch);
 }
 
-TEST_CASE("a run's own video is not overwritten by its overlay") {
+TEST_CASE("a run's input video is not overwritten by its overlay, and a broken one gets one line") {
   const RoomCopy copy;
   const fs::path video = copy.scratch.path() / "in.mp4";
   REQUIRE(copy.run("--end 20 --video " + video.string()).code == 0);
@@ -159,6 +159,11 @@ TEST_CASE("a run's own video is not overwritten by its overlay") {
                               " --out " + (copy.scratch.path() / "again").string()),
                   "in.mp4: is the input; choose another name");
   REQUIRE(text_of(video) == bytes);
+  fs::resize_file(video, bytes.size() / 2);
+  require_refused(
+      run_program("run " + video.string() + " --camera " + (copy.scratch.path() / "camera.yaml").string() +
+                  " --out " + (copy.scratch.path() / "again").string()),
+      "in.mp4: cannot open this video");
 }
 
 TEST_CASE("a video that a full disk cuts off is not left behind, and the results are kept") {
@@ -176,4 +181,21 @@ TEST_CASE("a video that a full disk cuts off is not left behind, and the results
   REQUIRE_FALSE(fs::exists(file));
   require_no_leftover(copy.scratch.path());
   REQUIRE(fs::exists(copy.out / "trajectory.txt"));
+}
+
+TEST_CASE("a run that is interrupted leaves a video of what it had") {
+  const RoomCopy copy;
+  const fs::path file = copy.scratch.path() / "look.mp4";
+  const Outcome outcome = run_program("run " + copy.folder.string() + " --quiet --normals none --out " +
+                                          copy.out.string() + " --video " + file.string(),
+                                      "timeout -s INT 1 ");
+  INFO(outcome.text);
+  if (outcome.code == 0) WARN("the run was over before it could be interrupted");
+  const std::size_t rows = states(copy.out).size();
+  if (rows == 0) {
+    REQUIRE_FALSE(fs::exists(file));
+  } else {
+    REQUIRE(decode(file).size() == rows);
+  }
+  require_no_leftover(copy.scratch.path());
 }
