@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "cli/messages.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/run.hpp"
 #include "cli/run_folder.hpp"
 #include "cli/synth.hpp"
@@ -21,6 +21,7 @@ struct DemoSettings {
   int frames = 300;
   std::uint64_t seed = 1;
   std::string normals;  // as in RunSettings
+  Verbosity verbosity = Verbosity::kNormal;
 };
 
 void run_demo(const DemoSettings& settings) {
@@ -29,6 +30,7 @@ void run_demo(const DemoSettings& settings) {
   synth.folder = (folder / "room").string();
   synth.frames = settings.frames;
   synth.house.seed = settings.seed;
+  synth.verbosity = settings.verbosity;
   const SynthReport rendered = synthesise(synth);
   if (rendered.interrupted) return;
   RunSettings track;
@@ -36,6 +38,7 @@ void run_demo(const DemoSettings& settings) {
   track.out = (folder / "run").string();
   track.seed = settings.seed;
   track.normals = settings.normals;
+  track.verbosity = settings.verbosity;
   run(track);
   std::printf("\nOpen %s in a browser.\n", (folder / "run" / kReportFile).c_str());
 }
@@ -50,7 +53,8 @@ void add_demo_command(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(10, 100000));
   command->add_option("--seed", s->seed, "Of the room and of the run")->capture_default_str();
-  command->add_option("--normals", s->normals, kNormalsMeaning);
+  command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
+  add_progress_options(*command, s->verbosity, true);
   command->callback([s] { run_demo(*s); });
 }
 

@@ -85,7 +85,8 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("ESTIMATE", settings->estimate, "trajectory in TUM format, camera to world")->required();
   eval->add_option("--align", options.alignment,
                    "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3")
-      ->transform(CLI::CheckedTransformer(alignments).description(""));
+      ->transform(CLI::CheckedTransformer(alignments).description(""))
+      ->type_name("{sim3,se3,none}");
   eval->add_option("--max-difference", options.max_difference, "between the stamps of a pair; default 0.02")
       ->check(CLI::PositiveNumber);
   eval->add_option("--delta", settings->deltas,
@@ -98,9 +99,11 @@ void add_eval_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   eval->add_option("--axes", settings->axes,
                    "axes of GROUNDTRUTH: y-down, y-up (ICL-NUIM as published), auto; default auto")
-      ->transform(CLI::CheckedTransformer(axes).description(""));
-  eval->add_option("--json", settings->json, "write the figures to this file");
-  eval->add_option("--plot", settings->plot, "draw both trajectories from above into this SVG file");
+      ->transform(CLI::CheckedTransformer(axes).description(""))
+      ->type_name("{y-down,y-up,auto}");
+  eval->add_option("--json", settings->json, "write the figures to this file")->type_name("FILE");
+  eval->add_option("--plot", settings->plot, "draw both trajectories from above into this SVG file")
+      ->type_name("FILE");
   eval->callback([settings] { run_eval(*settings); });
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
@@ -12,6 +13,13 @@
 #include "sslam/io/dataset.hpp"
 
 namespace sslam::cli {
+
+// The name, without extension, of files that belong to one frame of a video.
+[[nodiscard]] inline std::string video_frame_stem(const std::filesystem::path& video, std::int64_t index) {
+  char number[32];
+  std::snprintf(number, sizeof number, "_%06lld", static_cast<long long>(index));
+  return video.stem().string() + number;
+}
 
 class FrameReader {
  public:
@@ -39,11 +47,7 @@ class FrameReader {
 
   // The name, without folder and extension, of files that belong to the frame, such as its normals.
   [[nodiscard]] std::string stem(const io::FrameEntry& entry) const {
-    const std::string file = entry.image.stem().string();
-    if (!is_video()) return file;
-    char number[32];
-    std::snprintf(number, sizeof number, "_%06lld", static_cast<long long>(entry.index));
-    return file + number;
+    return is_video() ? video_frame_stem(entry.image, entry.index) : entry.image.stem().string();
   }
 
  private:

@@ -2,12 +2,17 @@
 // `sslam`: parses the command line, runs one subcommand, turns whatever goes wrong into one line and an exit
 // code.
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <opencv2/core/utils/logger.hpp>
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/completion.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/man_page.hpp"
 #include "cli/messages.hpp"
 
 namespace sslam::cli {
@@ -28,6 +33,24 @@ int report_parse_result(const CLI::App& app, const CLI::ParseError& error) {
   return static_cast<int>(ExitCode::kUsage);
 }
 
+// For the places where man and the shells look.
+void add_self_description(CLI::App& app) {
+  const auto print = [](const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    throw CLI::Success();
+  };
+  app.add_flag_callback(
+         "--man", [&app, print] { print(man_page(app)); }, "Print the man page and exit")
+      ->trigger_on_parse();
+  const auto complete = [&app, print](const std::string& shell) {
+    print(shell == "zsh" ? zsh_completion(app) : bash_completion(app));
+  };
+  app.add_option_function<std::string>("--completion", complete,
+                                       "Print what completes the command line in this shell and exit")
+      ->check(CLI::IsMember({"bash", "zsh"}))
+      ->trigger_on_parse();
+}
+
 int run_main(int argc, char** argv) {
   CLI::App app{"Low-drift monocular SLAM for indoor places with little texture", "sslam"};
   app.set_version_flag("--version", std::string("sslam ") + SSLAM_VERSION);
@@ -37,9 +60,11 @@ int run_main(int argc, char** argv) {
   add_eval_command(app);
   add_normals_command(app);
   add_report_command(app);
+  add_export_command(app);
   add_synth_command(app);
   add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
+  add_self_description(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -53,6 +78,10 @@ int run_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace sslam::cli;
+  // What goes wrong in OpenCV, and below it in FFmpeg, comes back to us, and is told in one line.
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
     return run_main(argc, argv);
   } catch (const Stop& stop) {

@@ -15,7 +15,7 @@
 #include "cli/image_camera.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/normal_files.hpp"
-#include "cli/progress.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/shipped_model.hpp"
 #include "sslam/io/open_dataset.hpp"
 #include "sslam/io/statistics.hpp"
@@ -156,8 +156,8 @@ void run_normals(const NormalsSettings& settings) {
   NormalWriter writer(std::move(model), std::move(camera), settings.out);
   FrameReader reader(dataset);
   std::vector<std::string> failures;
-  Progress progress(dataset.frames.size(),
-                    dataset.frames.size() > 1 ? settings.verbosity : Verbosity::kQuiet);
+  const bool told = dataset.frames.size() > 1 || settings.verbosity == Verbosity::kJson;
+  Progress progress(dataset.frames.size(), told ? settings.verbosity : Verbosity::kQuiet, "normals");
   const Interrupt interrupt;
   for (const io::FrameEntry& entry : dataset.frames) {
     if (Interrupt::asked()) break;
@@ -188,16 +188,19 @@ void add_normals_command(CLI::App& app) {
   auto s = std::make_shared<NormalsSettings>();
   command->add_option("IMAGES", s->images, "image, folder of images, dataset, quoted glob, or video")
       ->required();
-  command->add_option("--model", s->model,
-                      "ONNX file with its manifest (.json) beside it; default the network that comes with "
-                      "sslam");
-  command->add_option("--camera", s->camera,
-                      "camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names() +
-                          "; default camera.yaml beside the images, else a pinhole with the network's view");
+  command
+      ->add_option("--model", s->model,
+                   "ONNX file with its manifest (.json) beside it; default the network that comes with sslam")
+      ->type_name("FILE");
+  command
+      ->add_option("--camera", s->camera,
+                   "camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names() +
+                       "; default camera.yaml beside the images, else a pinhole with the network's view")
+      ->type_name("FILE");
   command->add_option("--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
-      ->capture_default_str();
-  command->add_flag_callback(
-      "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "no progress");
+      ->capture_default_str()
+      ->type_name("DIR");
+  add_progress_options(*command, s->verbosity, false);
   command->callback([s] { run_normals(*s); });
 }
 

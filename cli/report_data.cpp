@@ -10,6 +10,7 @@
 #include <span>
 
 #include "cli/base64.hpp"
+#include "cli/overlay_colours.hpp"
 #include "sslam/io/byte_archive.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/evaluation.hpp"
@@ -66,6 +67,12 @@ Json column_json(const io::CsvTable& table, std::size_t column) {
   return {{"names", names}, {"codes", packed<std::uint32_t>("u32", codes)}};
 }
 
+Json overlay_json() {
+  Json axes = Json::array();
+  for (const OverlayColour& colour : kAxisOverlay) axes.push_back(css_colour(colour));
+  return {{"axes", axes}, {"mapped", css_colour(kMappedPoint)}, {"other", css_colour(kOtherPoint)}};
+}
+
 struct FoundAlignment {
   Sim3<double> truth_from_estimate;
   double max_difference = io::kMaxStampDifference;
@@ -101,6 +108,7 @@ class DataMaker {
       columns[run_.frames.columns[c]] = column_json(run_.frames, c);
     data_["frames"] = {{"count", run_.frames.rows.size()}, {"columns", columns}};
     add_poses();
+    data_["overlay"] = overlay_json();
     data_["keyframes"] = poses_json(run_.keyframes);
     add_map();
     try {

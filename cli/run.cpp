@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cli/camera_choice.hpp"
 #include "cli/commands.hpp"
@@ -12,7 +13,10 @@
 #include "cli/exit_code.hpp"
 #include "cli/image_file.hpp"
 #include "cli/messages.hpp"
+#include "cli/option_info.hpp"
+#include "cli/overlay_video.hpp"
 #include "cli/presets.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/report.hpp"
 #include "cli/run_report.hpp"
 #include "cli/shipped_model.hpp"
@@ -99,14 +103,20 @@ void run(RunSettings settings) {
   stream_settings.normals = choose_normals(settings.normals);
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
-  stream_settings.keep_pictures = settings.report;
+  stream_settings.keep_pictures = settings.report || !settings.video.empty();
+  std::optional<OverlayVideo> video;
+  if (!settings.video.empty()) {
+    video.emplace(settings.video, dataset, camera.camera);
+    track.watcher = [&video](const auto&... seen) { video->add(seen...); };
+  }
   FrameStream stream(dataset, std::move(stream_settings));
   if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
-  Progress progress(stream.size(), settings.verbosity);
+  Progress progress(stream.size(), settings.verbosity, "run");
   const RunOutcome outcome = preset.run(stream, track, progress);
   print_warnings(outcome.warnings);
   write_run({settings, dataset, camera.source, camera.camera}, outcome);
   if (settings.report) write_report(settings.out);
+  if (video) video->commit();
   if (outcome.interrupted) {
     print_warning("interrupted; what had been computed was written");
     throw Stop{ExitCode::kInterrupted};
@@ -127,16 +137,23 @@ void add_run_command(CLI::App& app) {
           "dataset", s->dataset,
           "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
       ->required();
-  command->add_option("--camera", s->camera,
-                      "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names());
-  command->add_option("--normals", s->normals, kNormalsMeaning);
+  command
+      ->add_option("--camera", s->camera,
+                   "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names())
+      ->type_name("FILE");
+  command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   std::string presets = "What the pipeline is made of:";
-  for (const Preset& preset : kPresets)
+  std::vector<std::string> names;
+  for (const Preset& preset : kPresets) {
     presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
-  command->add_option("--preset", s->preset, presets)->capture_default_str();
-  command->add_option("--map", s->map,
-                      "Go on in the map of an earlier run, its map.sslam: poses are in that map's world");
-  command->add_option("--out", s->out, "Folder for the results")->capture_default_str();
+    names.emplace_back(preset.name);
+  }
+  command->add_option("--preset", s->preset, presets)->capture_default_str()->type_name(words_type(names));
+  command
+      ->add_option("--map", s->map,
+                   "Go on in the map of an earlier run, its map.sslam: poses are in that map's world")
+      ->type_name("FILE");
+  command->add_option("--out", s->out, "Folder for the results")->capture_default_str()->type_name("DIR");
   command->add_option("--start", s->slice.start, "First frame")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
@@ -156,10 +173,13 @@ void add_run_command(CLI::App& app) {
   command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--video", s->video,
+                   "Overlay video to write, .mp4 or .avi: features, segments by axis, normals, state")
+      ->type_name("FILE");
   command->add_flag_callback(
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
-  command->add_flag_callback(
-      "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "No progress");
+  add_progress_options(*command, s->verbosity, true);
   command->callback([s] { run(*s); });
 }
 

@@ -28,6 +28,7 @@ struct RunSettings {
   std::vector<std::string> set;  // stage.parameter=value
   std::uint64_t seed = 1;
   bool report = true;      // write report.html
+  std::string video;       // overlay video to write; empty: none
   double frame_rate = 30;  // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
 };

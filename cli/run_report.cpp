@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cli/eval_report.hpp"
+#include "cli/map_ply.hpp"
 #include "cli/messages.hpp"
 #include "cli/run_folder.hpp"
 #include "cli/view_file.hpp"
@@ -16,7 +17,6 @@
 #include "sslam/io/csv_writer.hpp"
 #include "sslam/io/evaluation.hpp"
 #include "sslam/io/map_file.hpp"
-#include "sslam/io/map_writer.hpp"
 #include "sslam/io/svg_plot.hpp"
 
 namespace sslam::cli {
@@ -44,20 +44,6 @@ void write_frames(const fs::path& path, const RunOutcome& outcome) {
   }
   static_assert(kStageCount == 7, "one cell for each stage");
   csv.commit();
-}
-
-void write_map_file(const fs::path& path, const RunOutcome& outcome) {
-  constexpr std::array<io::Colour, 4> kAxisColours{
-      {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none
-  std::vector<io::MapPoint> points;
-  for (const auto& point : outcome.map.points)
-    if (point.alive) points.push_back({point.position});
-  std::vector<io::MapLine> lines;
-  for (const auto& line : outcome.map.lines)
-    if (line.alive)
-      lines.push_back(
-          {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
-  io::write_map(path, points, lines);
 }
 
 // That part of the ground truth that was recorded while the images were.
@@ -124,11 +110,13 @@ std::size_t count_normals(const RunOutcome& outcome, NormalStatus status) {
 Json settings_json(const RunContext& context, const RunOutcome& outcome) {
   const RunSettings& s = context.settings;
   const Pinhole<double>& pinhole = context.camera.pinhole;
+  const RadTan<double>& lens = context.camera.distortion;
   Json parameters;
   for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
   return {{"dataset", s.dataset},
           {"camera", context.camera_source},
           {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
+          {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
           {"image_size", {context.camera.width, context.camera.height}},
           {"seconds_per_stamp", context.dataset.seconds_per_stamp},
           {"normals", s.normals},
@@ -200,7 +188,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
   io::write_trajectory(out / "trajectory_live.txt", outcome.live);
   io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
-  write_map_file(out / "map.ply", outcome);
+  write_map_ply(out / "map.ply", outcome.map);
   // What an earlier run in this folder has left must not pass for this one's.
   for (const char* name : {"map.sslam", kTruthFile, kViewFile, kReportFile}) fs::remove(out / name);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);

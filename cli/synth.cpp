@@ -2,10 +2,8 @@
 // `sslam synth DIR`: renders a house that is known to the last edge.
 #include "cli/synth.hpp"
 
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -19,6 +17,8 @@
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/option_info.hpp"
+#include "cli/progress_options.hpp"
 #include "cli/synth_files.hpp"
 #include "cli/synth_names.hpp"
 #include "cli/worker_threads.hpp"
@@ -41,18 +41,11 @@ double stamp_of(const SynthSettings& settings, std::size_t frame) {
   return std::round(static_cast<double>(frame) / settings.rate * 1e6) * 1e-6;
 }
 
-void show_progress(std::size_t done, std::size_t total, Clock::time_point start) {
-  if (isatty(fileno(stderr)) == 0) return;
-  std::fprintf(stderr, "\rsynth %zu/%zu  %.0f frames/s ", done, total,
-               static_cast<double>(done) / seconds_since(start));
-}
-
 // Renders and writes the frames on all threads; returns how many from the first on are complete.
 std::size_t render_frames(const SynthSettings& settings, const synth::House& house, const synth::View& view,
                           std::size_t frames) {
-  const Clock::time_point start = Clock::now();
+  Progress progress(frames, settings.verbosity, "synth");
   const synth::Sensor sensor(settings.sensor, settings.house.seed);
-  std::atomic<std::size_t> done{0};
   std::vector<std::uint8_t> written(frames, 0);
   const auto pose_at = [&](double t) { return house.path.world_from_cam(t).inverse(); };
   WorkerThreads(settings.threads).run(frames, [&] {
@@ -65,10 +58,10 @@ std::size_t render_frames(const SynthSettings& settings, const synth::House& hou
       sensor.expose(frame, static_cast<int>(i), stamp, rgb);
       writer.write(static_cast<int>(i), frame, rgb);
       written[i] = 1;
-      if (!settings.quiet) show_progress(++done, frames, start);
+      progress.show("rendered");
     };
   });
-  if (!settings.quiet && isatty(fileno(stderr)) != 0) std::fputc('\n', stderr);
+  progress.finish();
   return static_cast<std::size_t>(std::find(written.begin(), written.end(), 0) - written.begin());
 }
 
@@ -113,8 +106,11 @@ void run_synth(const SynthSettings& settings) {
 template <class Value>
 void add_choice(CLI::App& app, const std::string& flag, Value& target,
                 const std::map<std::string, Value>& names, const std::string& meaning) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : names) words.push_back(name);
   app.add_option_function<std::string>(
          flag, [&target, &names](const std::string& word) { target = names.at(word); }, meaning)
+      ->type_name(words_type(words))
       ->check([&names](const std::string& word) {
         if (names.count(word) != 0) return std::string();
         std::string known;
@@ -137,7 +133,7 @@ void add_scene_options(CLI::App& synth, SynthSettings& s) {
       "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
       "between walls); the last two for a single room; default manhattan");
   synth.add_option("--rooms", s.house.rooms, "1, or 3 along a corridor; default 1")
-      ->check(CLI::IsMember({1, 3}).description(""));
+      ->check(CLI::IsMember({1, 3}));
   add_choice(
       synth, "--path", s.house.path, kPathNames,
       "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
@@ -221,14 +217,14 @@ void add_synth_command(CLI::App& app) {
   add_scene_options(*synth, *settings);
   add_camera_options(*synth, *settings);
   synth->add_option("--image-format", settings->image_format, "jpg (quality 95) or png; default jpg")
-      ->check(CLI::IsMember({"jpg", "png"}).description(""));
+      ->check(CLI::IsMember({"jpg", "png"}));
   synth->add_flag_callback(
       "--no-depth", [settings] { settings->depth = false; }, "leave the depth images out");
   synth->add_flag_callback(
       "--no-normals", [settings] { settings->normals = false; }, "leave the normal images out");
   synth->add_option("--threads", settings->threads, "default one for each processor; the result is the same")
       ->check(CLI::Range(1, 1024).description(""));
-  synth->add_flag("--quiet", settings->quiet, "no progress");
+  add_progress_options(*synth, settings->verbosity, false);
   synth->callback([settings] { run_synth(*settings); });
 }
 

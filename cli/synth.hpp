@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "cli/progress.hpp"
 #include "sslam/testing/house.hpp"
 #include "sslam/testing/sensor.hpp"
 
@@ -22,7 +23,7 @@ struct SynthSettings {
   std::string image_format = "jpg";
   bool depth = true, normals = true;
   int threads = 0;  // 0: one for each processor
-  bool quiet = false;
+  Verbosity verbosity = Verbosity::kNormal;
 };
 
 struct SynthReport {

@@ -101,10 +101,11 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
     if (record.result.has_pose())
       outcome.live.push_back({record.result.stamp, record.result.cam_from_world.inverse()});
     const std::size_t row = outcome.frames.size();
+    const FrameViewInput view{row, input.picture, input.normal_picture, stream.camera(),
+                              pipeline.map().world_from_manhattan};
     if (settings.view_stride > 0 && row % settings.view_stride == 0)
-      outcome.views.push_back(encode_frame_view(
-          {row, input.picture, input.normal_picture, stream.camera(), pipeline.map().world_from_manhattan},
-          pipeline.last_frame()));
+      outcome.views.push_back(encode_frame_view(view, pipeline.last_frame()));
+    if (settings.watcher) settings.watcher(record, view, pipeline.last_frame());
     progress.show(record);
     outcome.frames.push_back(std::move(record));
   }

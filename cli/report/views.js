@@ -87,7 +87,7 @@ class Views {
     const { context, width, height } = cleared;
     if (this.show.lines) {
       for (const { ends, axis, mapped } of this.view.lines) {
-        context.strokeStyle = kOverlay[axis < 0 ? 3 : axis];
+        context.strokeStyle = run.overlay.axes[axis < 0 ? 3 : axis];
         context.lineWidth = mapped ? 2.4 : 1.3;
         context.beginPath();
         context.moveTo(ends[0] * width, ends[1] * height);
@@ -98,12 +98,9 @@ class Views {
     if (!this.show.points) return;
     this.view.points.forEach(([x, y], i) => {
       const mapped = i < this.view.mapped;
-      context.fillStyle = mapped ? "#ffd84d" : "rgb(255 255 255 / 55%)";
+      context.fillStyle = mapped ? run.overlay.mapped : run.overlay.other;
       const size = mapped ? 3 : 2;
       context.fillRect(x * width - size / 2, y * height - size / 2, size, size);
     });
   }
 }
-
-// Over photographs, light or dark theme alike.
-const kOverlay = ["#ff4f49", "#2fd67b", "#4c9dff", "rgb(255 255 255 / 60%)"];

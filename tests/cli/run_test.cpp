@@ -9,69 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/program.hpp"
+#include "cli/room_copy.hpp"
 #include "sslam/core/types.hpp"
 #include "support/catch.hpp"
-#include "support/scratch_folder.hpp"
-
-namespace {
 
 namespace fs = std::filesystem;
-using sslam::testing::Outcome;
-using sslam::testing::run_program;
-using sslam::testing::ScratchFolder;
-using sslam::testing::text_of;
-
-constexpr int kFrames = 60;
-
-// One rendered room for all tests of this program; each works on links to it, so that it can spoil a file.
-const fs::path& room() {
-  static const ScratchFolder scratch;
-  static const fs::path folder = [] {
-    const fs::path path = scratch.path() / "room";
-    const Outcome outcome = run_program("synth " + path.string() + " --quiet --frames " +
-                                        std::to_string(kFrames) + " --seed 3 --size 480x360");
-    if (outcome.code != 0) throw std::runtime_error(outcome.text);
-    return path;
-  }();
-  return folder;
-}
-
-struct Copy {
-  ScratchFolder scratch;
-  fs::path folder = scratch.path() / "room";
-  fs::path out = scratch.path() / "out";
-
-  Copy() { fs::copy(room(), folder, fs::copy_options::recursive); }
-
-  // With lines alone, unless the options name a source of normals.
-  [[nodiscard]] Outcome run(const std::string& options = "") const {
-    const bool named = options.find("--normals") != std::string::npos;
-    return run_by_default(options + (named ? "" : " --normals none"));
-  }
-  [[nodiscard]] Outcome run_by_default(const std::string& options = "") const {
-    return run_program("run " + folder.string() + " --quiet --out " + out.string() + " " + options);
-  }
-  [[nodiscard]] nlohmann::json metrics() const {
-    std::ifstream file(out / "metrics.json");
-    return nlohmann::json::parse(file);
-  }
-};
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
-
-// Exit code 1 and one line that names what is wrong.
-void require_refused(const Outcome& outcome, const std::string& what) {
-  INFO(outcome.text);
-  REQUIRE(outcome.code == 1);
-  REQUIRE(outcome.text.find("sslam: error: ") == 0);
-  REQUIRE(outcome.text.find(what) != std::string::npos);
-  REQUIRE(outcome.text.find('\n') == outcome.text.size() - 1);
-}
-
-}  // namespace
+using namespace sslam::testing;
+using Copy = RoomCopy;
 
 TEST_CASE("run tracks a rendered room and writes every file") {
   const Copy copy;
