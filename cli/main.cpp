@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "cli/batch/child.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/messages.hpp"
@@ -37,6 +38,7 @@ int run_main(int argc, char** argv) {
   add_eval_command(app);
   add_normals_command(app);
   add_report_command(app);
+  add_batch_command(app);
   add_synth_command(app);
   add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
@@ -54,6 +56,7 @@ int run_main(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace sslam::cli;
   try {
+    end_with_parent();
     return run_main(argc, argv);
   } catch (const Stop& stop) {
     return static_cast<int>(stop.code);

@@ -11,6 +11,7 @@
 #include "cli/eval_report.hpp"
 #include "cli/messages.hpp"
 #include "cli/run_folder.hpp"
+#include "cli/truth_source.hpp"
 #include "cli/view_file.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/csv_writer.hpp"
@@ -58,16 +59,6 @@ void write_map_file(const fs::path& path, const RunOutcome& outcome) {
       lines.push_back(
           {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
   io::write_map(path, points, lines);
-}
-
-// That part of the ground truth that was recorded while the images were.
-void write_truth(const fs::path& path, const io::Dataset& dataset) {
-  io::Trajectory seen;
-  for (const io::StampedPose& pose : dataset.ground_truth)
-    if (pose.stamp >= dataset.frames.front().stamp - io::kMaxStampDifference &&
-        pose.stamp <= dataset.frames.back().stamp + io::kMaxStampDifference)
-      seen.push_back(pose);
-  if (!seen.empty()) io::write_trajectory(path, seen);
 }
 
 template <class Landmarks>
@@ -198,7 +189,9 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   // What an earlier run in this folder has left must not pass for this one's.
   for (const char* name : {"map.sslam", kTruthFile, kViewFile, kReportFile}) fs::remove(out / name);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
-  write_truth(out / kTruthFile, context.dataset);
+  if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
+      !truth.empty())
+    io::write_trajectory(out / kTruthFile, truth);
   if (!outcome.views.empty()) write_views(out / kViewFile, outcome.views);
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);
