@@ -67,9 +67,12 @@ std::size_t write_results(const fs::path& folder, const std::vector<fs::path>& a
 
 void run_suite(const BatchOptions& options) {
   Suite suite = read_suite(options.suite);
-  suite.against.insert(suite.against.end(), options.against.begin(), options.against.end());
   const Shard shard = options.shard.empty() ? Shard{} : parse_shard(options.shard).value();
   const std::vector<SequenceFacts> facts = check_suite(suite);
+  for (const std::string& earlier : options.against) {
+    (void)read_plan(earlier);
+    suite.against.emplace_back(earlier);
+  }
   const Plan plan = make_plan(suite);
   if (options.list) return list_runs(plan, shard);
 

@@ -75,13 +75,11 @@ std::string percent(double share) {
 
 void add_notes(const Results& results, ResultPage& page) {
   std::vector<std::string>& notes = page.notes;
-  std::size_t planned = 0;
   for (const ResultColumn& column : results.columns) {
     for (const ResultSequence& sequence : results.sequences) {
       const auto found = column.by_sequence.find(sequence.name);
       if (found == column.by_sequence.end()) continue;
       for (const Estimate& estimate : found->second) {
-        ++planned;
         page.missing += estimate.done ? 0 : 1;
         if (estimate.failed)
           notes.push_back((estimate.broken ? "Failed unexpectedly: " : "Lost: ") + estimate.title + ": " +
@@ -90,8 +88,7 @@ void add_notes(const Results& results, ResultPage& page) {
     }
   }
   if (page.missing > 0)
-    notes.insert(notes.begin(), "Not done yet: " + std::to_string(page.missing) + " of " +
-                                    std::to_string(planned) + " runs.");
+    notes.insert(notes.begin(), "Not done yet: " + std::to_string(page.missing) + " runs.");
 }
 
 }  // namespace
@@ -110,6 +107,8 @@ std::string cell_text(const TableCell& cell, const std::string& cross) {
   std::string text = metres_text(*cell.ate) + share;
   if (cell.failed > 0)
     text += ", " + std::to_string(cell.failed) + "/" + std::to_string(cell.done) + " " + cross;
+  if (cell.done < cell.runs)
+    text += ", " + std::to_string(cell.done) + " of " + std::to_string(cell.runs) + " runs";
   return text;
 }
 

@@ -26,23 +26,25 @@ Json read_object(const fs::path& file) {
   return json.is_object() ? json : Json();
 }
 
-// The last line of the log, without what `sslam` puts in front of its errors.
+// The error in the log, without what `sslam` puts in front of it; the last line where there is none.
 std::string last_words(const fs::path& log) {
   constexpr std::string_view kPrefix = "sslam: error: ";
   std::error_code ignored;
   if (!fs::is_regular_file(log, ignored)) return "";
   std::string text = io::read_text(log);
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::string line = text.substr(text.rfind('\n') + 1);
-  if (line.starts_with(kPrefix)) line.erase(0, kPrefix.size());
-  return line;
+  // Standard output is written when the run ends, which may be behind the error.
+  const auto error = text.rfind(kPrefix);
+  if (error == std::string::npos) return text.substr(text.rfind('\n') + 1);
+  const auto start = error + kPrefix.size();
+  return text.substr(start, text.find('\n', start) - start);
 }
 
 // Whether there was anything to track.
 bool saw_images(const Json& metrics) {
+  const Json states = metrics.value("states", Json::object());
   int frames = 0;
-  for (const auto& [state, count] : metrics.value("states", Json::object()).items())
-    frames += count.is_number() ? count.get<int>() : 0;
+  for (const auto& [state, count] : states.items()) frames += count.is_number() ? count.get<int>() : 0;
   return frames > 0;
 }
 

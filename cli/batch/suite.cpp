@@ -35,6 +35,7 @@ class SuiteReader {
     suite_.min_tracked = top.number("min_tracked", suite_.min_tracked, 0, 1);
     suite_.report = top.flag("report", suite_.report);
     for (const std::string& earlier : top.texts("against")) suite_.against.push_back(folder_ / earlier);
+    suite_.against_line = top.line_of("against");
     const MethodDefaults defaults = read_defaults(top, {});
     read_each(top, "sequence", [&](SuiteTable& table) { read_sequence(table); });
     read_each(top, "method", [&](SuiteTable& table) { read_methods(table, defaults, suite_.methods); });
@@ -67,7 +68,7 @@ class SuiteReader {
   void read_sequence(SuiteTable& table) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     SuiteSequence sequence;
-    sequence.line = table.line();
+    sequence.line = table.line_of("path");
     const std::string path = table.required_text("path", "a dataset, a glob of images or a video");
     sequence.dataset = resolve(path);
     sequence.name = table.text("name").value_or(fs::path(path).filename().string());

@@ -19,7 +19,7 @@ struct SuiteSequence {
   std::filesystem::path truth;  // empty: the dataset's own
   io::Slice slice;
   double frame_rate = 30;
-  int line = 0;
+  int line = 0;  // of its path in the suite file
 };
 
 struct SuiteMethod {
@@ -29,7 +29,8 @@ struct SuiteMethod {
   std::vector<std::string> set;  // stage.parameter=value
   std::vector<std::uint64_t> seeds;
   int repeats = 1;
-  int line = 0;
+  int line = 0;  // of its heading in the suite file, and of what it may say
+  int preset_line = 0, normals_line = 0, set_line = 0;
 };
 
 // Trajectories that another system has made.
@@ -50,6 +51,7 @@ struct Suite {
   std::vector<SuiteMethod> methods;
   std::vector<SuiteReference> references;
   std::vector<std::filesystem::path> against;  // folders of earlier batches
+  int against_line = 0;
 };
 
 // Paths in the file are relative to its folder. Throws io::Error that names file, line and key.

@@ -16,12 +16,15 @@ class SuiteCheck {
   explicit SuiteCheck(const Suite& suite) : suite_(suite) {}
 
   [[nodiscard]] std::vector<SequenceFacts> run() {
-    for (const SuiteMethod& method : suite_.methods)
-      in(method.line, "[[method]]", [&] { check_overrides(find_preset(method.preset), method.set); });
+    for (const std::filesystem::path& earlier : suite_.against)
+      in(suite_.against_line, "against", [&] { (void)read_plan(earlier); });
+    for (const SuiteMethod& method : suite_.methods) {
+      in(method.preset_line, "[[method]]", [&] { (void)find_preset(method.preset); });
+      in(method.set_line, "[[method]]", [&] { check_overrides(find_preset(method.preset), method.set); });
+    }
     std::vector<SequenceFacts> facts;
     for (const SuiteSequence& sequence : suite_.sequences) facts.push_back(check_sequence(sequence));
     for (const SuiteReference& reference : suite_.references) check_reference(reference);
-    for (const std::filesystem::path& earlier : suite_.against) (void)read_plan(earlier);
     return facts;
   }
 
@@ -62,7 +65,7 @@ class SuiteCheck {
       print_note(sequence.name + ": no ground truth, so the tables show the share tracked alone");
     for (const SuiteMethod& method : suite_.methods) {
       settings.normals = normals_for(method, sequence);
-      in(method.line, "[[method]]", [&] {
+      in(method.normals_line, "[[method]]", [&] {
         check_normals(settings, dataset, camera.depth_factor);
         // A network takes a while to load: each source is looked at once.
         if (!settings.normals.empty() && sources_.insert(settings.normals).second)

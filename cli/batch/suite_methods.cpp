@@ -78,6 +78,9 @@ MethodDefaults read_defaults(SuiteTable& table, const MethodDefaults& otherwise)
 void read_methods(SuiteTable& table, const MethodDefaults& defaults, std::vector<SuiteMethod>& methods) {
   SuiteMethod base;
   base.line = table.line();
+  base.preset_line = table.line_of("preset");
+  base.normals_line = table.line_of("normals");
+  base.set_line = table.line_of("set");
   const auto name = table.text("name");
   base.name = name.value_or("");
   const MethodDefaults own = read_defaults(table, defaults);
