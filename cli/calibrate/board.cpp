@@ -33,24 +33,20 @@ constexpr std::array<NamedDictionary, 11> kDictionaries{{{"4x4_50", cv::aruco::D
 
 constexpr int kChessboardFlags = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY;
 
-// The detector's own corners are off by a tenth of a pixel on tilted boards. The window stays within the four
-// squares around a corner.
-void refine(const cv::Mat& grey, int columns, std::vector<cv::Point2f>& corners) {
+// The detectors' own corners are off by a tenth of a pixel and more on tilted boards. The window is a share
+// of the distance between corners, so that it stays within the squares around one, and off their markers.
+void refine(const cv::Mat& grey, double share, std::vector<cv::Point2f>& corners) {
   double nearest = grey.cols;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::size_t below = i + static_cast<std::size_t>(columns);
-    if ((i + 1) % static_cast<std::size_t>(columns) != 0)
-      nearest = std::min(nearest, cv::norm(corners[i] - corners[i + 1]));
-    if (below < corners.size()) nearest = std::min(nearest, cv::norm(corners[i] - corners[below]));
-  }
-  const int half = std::clamp(static_cast<int>(0.3 * nearest), 2, 8);
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    nearest = std::min(nearest, cv::norm(corners[i] - corners[i - 1]));
+  const int half = std::clamp(static_cast<int>(share * nearest), 2, 8);
   cv::cornerSubPix(grey, corners, {half, half}, {-1, -1},
                    {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 0.001});
 }
 
 bool has_chessboard(const cv::Mat& grey, int columns, int rows, std::vector<cv::Point2f>& corners) {
   if (!cv::findChessboardCornersSB(grey, {columns, rows}, corners, kChessboardFlags)) return false;
-  refine(grey, columns, corners);
+  refine(grey, 0.25, corners);
   return true;
 }
 
@@ -114,6 +110,7 @@ BoardView Board::find_charuco(const cv::Mat& grey) const {
   std::vector<int> corners;
   cv::aruco::interpolateCornersCharuco(markers, ids, grey, charuco_, view.image, corners);
   if (corners.size() < kLeast) return {};
+  refine(grey, 0.1, view.image);
   for (const int corner : corners)
     view.board.push_back(charuco_->chessboardCorners[static_cast<std::size_t>(corner)]);
   return view;
@@ -131,7 +128,7 @@ std::string Board::other_chessboard(const cv::Mat& grey) const {
                                         std::pair{settings_.columns + more, settings_.rows},
                                         std::pair{settings_.columns, settings_.rows + more}}) {
       if (columns >= 3 && rows >= 3 && has_chessboard(grey, columns, rows, corners))
-        return "one of " + size_text(columns, rows) + " is: --size counts inner corners, not squares";
+        return "one of " + size_text(columns, rows) + " is there: --size counts inner corners, not squares";
     }
   }
   return "";
@@ -144,8 +141,8 @@ std::string Board::other_markers(const cv::Mat& grey) const {
     cv::aruco::detectMarkers(grey, cv::aruco::getPredefinedDictionary(known.number), markers, ids);
     if (ids.size() < 4) continue;
     if (known.name != settings_.dictionary)
-      return "markers of --dictionary " + std::string(known.name) + " are";
-    return "markers are, up to number " + std::to_string(*std::max_element(ids.begin(), ids.end())) +
+      return "markers of --dictionary " + std::string(known.name) + " are there";
+    return "markers are there, up to number " + std::to_string(*std::max_element(ids.begin(), ids.end())) +
            ", where a board of " + text() + " has numbers 0 to " + std::to_string(charuco_->ids.size() - 1);
   }
   return "";

@@ -42,9 +42,8 @@ cv::Mat coverage_picture(const Calibration& calibration) {
     }
   }
   const int radius = std::max(2, size.width / 320);
-  const double worst = *std::max_element(calibration.view_errors.begin(), calibration.view_errors.end());
   for (std::size_t v = 0; v < calibration.views.size(); ++v) {
-    const double share = worst > 0 ? calibration.view_errors[v] / worst : 0;
+    const double share = std::min(1.0, calibration.view_errors[v]);  // of a pixel
     const cv::Scalar colour(40, 150 - 40 * share, 40 + 190 * share);
     for (const cv::Point2f& corner : calibration.views[v].image)
       cv::circle(picture, corner, radius, colour, cv::FILLED, cv::LINE_AA);

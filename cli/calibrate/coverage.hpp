@@ -12,8 +12,8 @@ namespace sslam::cli {
 // Share of the cells of a grid of 10 x 8 that hold a corner.
 [[nodiscard]] double coverage_share(const Calibration& calibration);
 
-// Cells without corners in red; corners from green to orange by the error of their view, those left out as
-// crosses.
+// Cells without corners in red; corners from green to orange, at an error of a pixel, by that of their view;
+// those left out as crosses.
 [[nodiscard]] cv::Mat coverage_picture(const Calibration& calibration);
 
 }  // namespace sslam::cli

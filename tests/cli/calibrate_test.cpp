@@ -196,12 +196,12 @@ TEST_CASE("calibrate says which board is there instead") {
     shoot(session.folder, {good_placements()[0]}, chessboard());
     require_refused(
         session, session.calibrate("--size 9x6"),
-        "no board of 9x6 inner corners in any of 1 images; one of 8x5 is: --size counts inner corners");
+        "no board of 9x6 inner corners in any of 1 images; one of 8x5 is there: --size counts inner corners");
   }
   SECTION("another dictionary") {
     shoot(session.folder, {good_placements()[0]}, charuco_picture(9, 6, kSquare));
     require_refused(session, session.calibrate("--pattern charuco --size 9x6 --dictionary 6x6_250"),
-                    "markers of --dictionary 4x4_50 are");
+                    "markers of --dictionary 4x4_50 are there");
   }
   SECTION("a ChArUco board of another width") {
     shoot(session.folder, good_placements(), charuco_picture(9, 6, kSquare));
