@@ -40,6 +40,7 @@ int run_main(int argc, char** argv) {
   add_report_command(app);
   add_batch_command(app);
   add_calibrate_command(app);
+  add_fetch_command(app);
   add_synth_command(app);
   add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
