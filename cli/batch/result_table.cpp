@@ -36,7 +36,7 @@ TableCell make_cell(const std::vector<Estimate>& estimates, bool common) {
     if (!estimate.failed && ate) errors.push_back(*ate);
   }
   cell.ate = finite_median(errors);
-  cell.share = finite_median(shares);
+  if (!common) cell.share = finite_median(shares);
   return cell;
 }
 

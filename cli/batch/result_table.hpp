@@ -18,7 +18,7 @@ struct TableCell {
   std::size_t failed = 0;       // of those done
   std::size_t broken = 0;       // of those failed
   std::optional<double> ate;    // median over the runs, in metres; a failed run counts as infinitely bad
-  std::optional<double> share;  // median of the share of frames tracked
+  std::optional<double> share;  // median of the share of frames tracked; nothing over common frames
   bool best = false;            // of its row
 };
 
