@@ -88,6 +88,9 @@ Plan merge_plans(const std::vector<fs::path>& folders, const fs::path& out) {
   merged.parts.clear();
   for (const fs::path& folder : folders) {
     const Plan plan = read_plan(folder);
+    std::error_code ignored;
+    if (fs::equivalent(folder, out, ignored))
+      throw io::Error("--out " + out.string() + ": is one of the folders to merge; choose another");
     if (!same_runs(merged, plan))
       throw io::Error(folder.string() + ": is not a shard of the same suite as " + folders.front().string());
     for (const std::string& part : plan.parts)

@@ -265,6 +265,7 @@ class Shards(BatchCase):
             self.assertEqual((merged / name).read_text(), (whole / name).read_text())
         beside = self.batch(suite, "--out", whole, "--against", merged)
         self.assertIn("structure, none (merged)", beside.stdout)
+        self.assertIn("is one of the folders to merge", self.batch("merge", *shards, "--out", shards[0], code=1).stderr)
         lacking = self.batch("merge", *shards[:2], "--out", self.folder / "lacking", code=1)
         self.assertIn("2 of 8 runs are in none of these folders", lacking.stderr)
         self.assertIn("Not done yet: 2 runs", lacking.stdout)
