@@ -9,6 +9,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 
+#include "cli/batch/child.hpp"
 #include "cli/commands.hpp"
 #include "cli/completion.hpp"
 #include "cli/exit_code.hpp"
@@ -61,6 +62,9 @@ int run_main(int argc, char** argv) {
   add_normals_command(app);
   add_report_command(app);
   add_export_command(app);
+  add_batch_command(app);
+  add_calibrate_command(app);
+  add_fetch_command(app);
   add_synth_command(app);
   add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
@@ -83,6 +87,7 @@ int main(int argc, char** argv) {
   if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
+    end_with_parent();
     return run_main(argc, argv);
   } catch (const Stop& stop) {
     return static_cast<int>(stop.code);

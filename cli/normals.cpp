@@ -15,9 +15,9 @@
 #include "cli/image_camera.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/normal_files.hpp"
+#include "cli/open_images.hpp"
 #include "cli/progress_options.hpp"
 #include "cli/shipped_model.hpp"
-#include "sslam/io/open_dataset.hpp"
 #include "sslam/io/statistics.hpp"
 #include "sslam/opencv/onnx_normals.hpp"
 
@@ -33,24 +33,6 @@ struct NormalsSettings {
   std::string out = "normals";
   Verbosity verbosity = Verbosity::kNormal;
 };
-
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-// A dataset as `sslam run` takes it, or a single image.
-io::Dataset open_images(const fs::path& path) {
-  std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) {
-    if (io::is_image_name(path))
-      return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
-    if (!io::is_video_name(path))
-      throw io::Error(path.string() + ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...)");
-  }
-  io::Dataset dataset = io::open_dataset(path);
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
-  return dataset;
-}
 
 OnnxNormals open_model(const std::string& wanted) {
   OnnxNormals model(wanted.empty() ? shipped_model("name one with --model FILE") : fs::path(wanted));

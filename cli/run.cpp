@@ -7,78 +7,21 @@
 #include <memory>
 #include <optional>
 
-#include "cli/camera_choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/config_file.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/image_file.hpp"
 #include "cli/messages.hpp"
 #include "cli/option_info.hpp"
 #include "cli/overlay_video.hpp"
 #include "cli/presets.hpp"
 #include "cli/progress_options.hpp"
 #include "cli/report.hpp"
+#include "cli/run_check.hpp"
 #include "cli/run_report.hpp"
 #include "cli/shipped_model.hpp"
 #include "sslam/io/map_file.hpp"
-#include "sslam/io/open_dataset.hpp"
 
 namespace sslam::cli {
-namespace {
-
-const Preset& find_preset(const std::string& wanted) {
-  std::string known;
-  for (const Preset& preset : kPresets) {
-    if (preset.name == wanted) return preset;
-    known += (known.empty() ? "" : ", ") + std::string(preset.name);
-  }
-  throw io::Error("--preset " + wanted + ": not known; use one of " + known);
-}
-
-// "stage.parameter=value"
-ParameterValue parse_override(const std::string& text) {
-  const auto equals = text.find('=');
-  const auto value =
-      equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
-  return {text.substr(0, equals), *value};
-}
-
-io::Dataset open(const RunSettings& settings) {
-  io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
-  io::apply_slice(dataset, settings.slice);
-  print_warnings(dataset.warnings);
-  return dataset;
-}
-
-// A camera file may leave the image size out: then the first image says it.
-void complete_size(Camera<double>& camera, const io::Dataset& dataset) {
-  if (camera.width > 0 && camera.height > 0) return;
-  if (dataset.layout == io::Layout::kVideo) {
-    cv::VideoCapture video(dataset.root.string());
-    camera.width = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
-    camera.height = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
-    return;
-  }
-  std::string why;
-  const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
-  if (first.empty()) throw io::Error(why + "; the camera's size is not known without it");
-  camera.width = first.cols;
-  camera.height = first.rows;
-}
-
-void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
-  if (settings.normals != "depth") return;
-  const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
-                               [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
-  if (!any)
-    throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
-  if (!(depth_factor > 0))
-    throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
-}
-
-}  // namespace
 
 void run(RunSettings settings) {
   const Preset& preset = find_preset(settings.preset);
@@ -91,9 +34,8 @@ void run(RunSettings settings) {
   track.seed = settings.seed;
   for (const std::string& text : settings.set) track.overrides.push_back(parse_override(text));
   if (!settings.map.empty()) track.map = io::load_map(settings.map);
-  const io::Dataset dataset = open(settings);
-  CameraChoice camera = choose_camera(settings.camera, dataset);
-  complete_size(camera.camera, dataset);
+  const io::Dataset dataset = open_run_dataset(settings);
+  const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
   io::prepare_output_folder(settings.out);
 

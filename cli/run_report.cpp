@@ -12,6 +12,7 @@
 #include "cli/map_ply.hpp"
 #include "cli/messages.hpp"
 #include "cli/run_folder.hpp"
+#include "cli/truth_source.hpp"
 #include "cli/view_file.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/csv_writer.hpp"
@@ -44,16 +45,6 @@ void write_frames(const fs::path& path, const RunOutcome& outcome) {
   }
   static_assert(kStageCount == 7, "one cell for each stage");
   csv.commit();
-}
-
-// That part of the ground truth that was recorded while the images were.
-void write_truth(const fs::path& path, const io::Dataset& dataset) {
-  io::Trajectory seen;
-  for (const io::StampedPose& pose : dataset.ground_truth)
-    if (pose.stamp >= dataset.frames.front().stamp - io::kMaxStampDifference &&
-        pose.stamp <= dataset.frames.back().stamp + io::kMaxStampDifference)
-      seen.push_back(pose);
-  if (!seen.empty()) io::write_trajectory(path, seen);
 }
 
 template <class Landmarks>
@@ -192,7 +183,9 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   // What an earlier run in this folder has left must not pass for this one's.
   for (const char* name : {"map.sslam", kTruthFile, kViewFile, kReportFile}) fs::remove(out / name);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
-  write_truth(out / kTruthFile, context.dataset);
+  if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
+      !truth.empty())
+    io::write_trajectory(out / kTruthFile, truth);
   if (!outcome.views.empty()) write_views(out / kViewFile, outcome.views);
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);

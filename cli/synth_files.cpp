@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/camera_yaml.hpp"
 #include "cli/image_file.hpp"
 #include "cli/normal_files.hpp"
 #include "cli/synth_names.hpp"
@@ -32,13 +33,8 @@ void write_text(const fs::path& path, const std::string& header, std::size_t row
 }
 
 void write_camera(const SynthSettings& settings, const Pinhole<double>& pinhole) {
-  const std::string text = cv::format(
-      "%%YAML:1.0\n---\nCamera.type: \"PinHole\"\nCamera.fx: %.9g\nCamera.fy: %.9g\nCamera.cx: "
-      "%.9g\nCamera.cy: %.9g\n"
-      "Camera.k1: 0.0\nCamera.k2: 0.0\nCamera.p1: 0.0\nCamera.p2: 0.0\n"
-      "Camera.width: %d\nCamera.height: %d\nCamera.fps: %.9g\nCamera.RGB: 1\nDepthMapFactor: %.1f\n",
-      pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, settings.width, settings.height, settings.rate,
-      kDepthFactor);
+  const std::string text =
+      camera_yaml({{pinhole, {}, settings.width, settings.height}, kDepthFactor, settings.rate}, "");
   write_text(fs::path(settings.folder) / "camera.yaml", text, 0, [](std::size_t) { return ""; });
 }
 

@@ -55,4 +55,13 @@ TruthSource load_truth(const std::filesystem::path& path, FileAxes axes) {
   return source;
 }
 
+io::Trajectory truth_during(const io::Dataset& dataset, const io::Trajectory& truth) {
+  io::Trajectory seen;
+  for (const io::StampedPose& pose : truth)
+    if (pose.stamp >= dataset.frames.front().stamp - io::kMaxStampDifference &&
+        pose.stamp <= dataset.frames.back().stamp + io::kMaxStampDifference)
+      seen.push_back(pose);
+  return seen;
+}
+
 }  // namespace sslam::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "sslam/io/dataset.hpp"
 #include "sslam/io/trajectory.hpp"
 
 namespace sslam::cli {
@@ -22,5 +23,8 @@ struct TruthSource {
 // With kAuto, a file is taken as y up when it is named like ICL-NUIM's (*.freiburg) or is the ground truth of
 // a folder in the layout of ICL-NUIM. Throws io::Error when there is no ground truth.
 [[nodiscard]] TruthSource load_truth(const std::filesystem::path& path, FileAxes axes);
+
+// That part of the truth that was recorded while the frames of the dataset were.
+[[nodiscard]] io::Trajectory truth_during(const io::Dataset& dataset, const io::Trajectory& truth);
 
 }  // namespace sslam::cli

@@ -18,13 +18,18 @@ class CsvWriter {
  public:
   // Throws Error when the place cannot be written to.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns) : file_(path) {
-    for (const std::string& column : columns) write_cell(column);
-    end_row();
+    cells(columns);
   }
 
   template <class... Cells>
   void row(const Cells&... cells) {
     (write_cell(cells), ...);
+    end_row();
+  }
+
+  // A row whose length is known at run time only.
+  void cells(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) write_cell(text);
     end_row();
   }
 

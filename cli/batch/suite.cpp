@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/batch/suite.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "cli/batch/suite_methods.hpp"
+#include "cli/batch/suite_table.hpp"
+#include "sslam/io/files.hpp"
+#include "sslam/io/known_cameras.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SuiteReader {
+ public:
+  explicit SuiteReader(const fs::path& file) : file_(file.string()), folder_(file.parent_path()) {}
+
+  [[nodiscard]] Suite read() {
+    const std::string text = io::read_text(file_);
+    toml::table root;
+    try {
+      root = toml::parse(text, file_);
+    } catch (const toml::parse_error& error) {
+      throw io::Error(at_line(file_, error.source().begin.line) + std::string(error.description()));
+    }
+    SuiteTable top(root, file_, "the suite");
+    suite_.file = file_;
+    suite_.name = top.text("name").value_or(fs::path(file_).stem().string());
+    const auto out = top.text("out");
+    suite_.out = out ? folder_ / *out : fs::path(fs::path(file_).stem().string() + "_results");
+    suite_.min_tracked = top.number("min_tracked", suite_.min_tracked, 0, 1);
+    suite_.report = top.flag("report", suite_.report);
+    for (const std::string& earlier : top.texts("against")) suite_.against.push_back(folder_ / earlier);
+    suite_.against_line = top.line_of("against");
+    const MethodDefaults defaults = read_defaults(top, {});
+    read_each(top, "sequence", [&](SuiteTable& table) { read_sequence(table); });
+    read_each(top, "method", [&](SuiteTable& table) { read_methods(table, defaults, suite_.methods); });
+    read_each(top, "reference", [&](SuiteTable& table) { read_reference(table); });
+    top.refuse_others();
+    if (suite_.sequences.empty())
+      throw io::Error(file_ + ": names no sequence; it wants at least one [[sequence]] with a path");
+    if (suite_.methods.empty()) suite_.methods = default_methods(defaults);
+    for (SuiteMethod& method : suite_.methods) method.normals = resolve_normals(method.normals);
+    refuse_doubles();
+    return std::move(suite_);
+  }
+
+ private:
+  template <class Read>
+  void read_each(SuiteTable& top, const std::string& key, Read read_one) {
+    const toml::node* const node = top.find(key);
+    if (node == nullptr) return;
+    const toml::array* const list = node->as_array();
+    const std::string heading = "[[" + key + "]]";
+    if (list == nullptr || !list->is_array_of_tables())
+      top.fail(key, "wants a table with two brackets, " + heading);
+    for (const toml::node& element : *list) {
+      SuiteTable table(*element.as_table(), file_, heading);
+      read_one(table);
+      table.refuse_others();
+    }
+  }
+
+  void read_sequence(SuiteTable& table) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    SuiteSequence sequence;
+    sequence.line = table.line_of("path");
+    const std::string path = table.required_text("path", "a dataset, a glob of images or a video");
+    sequence.dataset = resolve(path);
+    sequence.name = table.text("name").value_or(fs::path(path).filename().string());
+    if (const auto camera = table.text("camera")) {
+      std::error_code ignored;
+      const bool built_in = io::find_known_camera(*camera) && !fs::exists(resolve(*camera), ignored);
+      sequence.camera = built_in ? *camera : resolve(*camera);
+    }
+    if (const auto truth = table.text("truth")) sequence.truth = resolve(*truth);
+    sequence.slice.start = table.whole_number("start", 0, 0);
+    sequence.slice.end = table.whole_number("end", -1, -1);
+    sequence.slice.stride = table.whole_number("stride", 1, 1);
+    sequence.frame_rate = table.number("fps", sequence.frame_rate, 1e-3, kInfinite);
+    suite_.sequences.push_back(std::move(sequence));
+  }
+
+  void read_reference(SuiteTable& table) {
+    SuiteReference reference;
+    reference.line = table.line();
+    reference.name = table.required_text("name", "what the column is called");
+    reference.min_tracked = table.number("min_tracked", suite_.min_tracked, 0, 1);
+    const toml::node* const node = table.find("trajectories");
+    if (node == nullptr || !node->is_table())
+      table.fail("trajectories", "wants SEQUENCE = \"FILE\" or a list of files, one for each run");
+    SuiteTable files(*node->as_table(), file_, "trajectories of [[reference]]");
+    for (const SuiteSequence& sequence : suite_.sequences) {
+      for (const std::string& path : files.texts(sequence.name)) {
+        std::error_code ignored;
+        if (!fs::is_regular_file(resolve(path), ignored))
+          files.fail(sequence.name, resolve(path) + ": no such file; wants a trajectory in TUM format");
+        reference.trajectories[sequence.name].push_back(resolve(path));
+      }
+    }
+    files.refuse_others();
+    suite_.references.push_back(std::move(reference));
+  }
+
+  [[nodiscard]] std::string resolve(const std::string& path) const {
+    return fs::absolute(folder_ / path).lexically_normal().string();
+  }
+
+  // The file behind "files:" or "onnx:" is relative to the suite as well.
+  [[nodiscard]] std::string resolve_normals(const std::string& normals) const {
+    for (const char* prefix : {"files:", "onnx:"})
+      if (normals.starts_with(prefix)) return prefix + resolve(normals.substr(std::string(prefix).size()));
+    return normals;
+  }
+
+  // Two of one name could not be told apart in the table, or would share a folder.
+  void refuse_doubles() const {
+    const auto check = [this](const auto& list, const std::string& what) {
+      for (auto second = list.begin(); second != list.end(); ++second)
+        for (auto first = list.begin(); first != second; ++first)
+          if (io::lower_case(folder_name(first->name)) == io::lower_case(folder_name(second->name)))
+            throw io::Error(at_line(file_, second->line) + "name in " + what + ": '" + second->name +
+                            "' is there already, in line " + std::to_string(first->line) +
+                            "; give each a name of its own");
+    };
+    check(suite_.sequences, "[[sequence]]");
+    check(suite_.methods, "[[method]]");
+    check(suite_.references, "[[reference]]");
+  }
+
+  std::string file_;
+  fs::path folder_;
+  Suite suite_;
+};
+
+}  // namespace
+
+Suite read_suite(const fs::path& file) {
+  return SuiteReader(file).read();
+}
+
+std::string folder_name(const std::string& name) {
+  std::string folder;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '.' || c == '_' || c == '=' || c == '-';
+    if (plain) folder += c;
+    if (!plain && !folder.empty() && folder.back() != '-') folder += '-';
+  }
+  while (!folder.empty() && (folder.back() == '-' || folder.back() == '.')) folder.pop_back();
+  folder.erase(0, folder.find_first_not_of('.'));
+  return folder.empty() ? "unnamed" : folder;
+}
+
+}  // namespace sslam::cli

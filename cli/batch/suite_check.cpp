@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/batch/suite_check.hpp"
+
+#include <set>
+
+#include "cli/batch/plan.hpp"
+#include "cli/messages.hpp"
+#include "cli/run_check.hpp"
+#include "cli/truth_source.hpp"
+
+namespace sslam::cli {
+namespace {
+
+class SuiteCheck {
+ public:
+  explicit SuiteCheck(const Suite& suite) : suite_(suite) {}
+
+  [[nodiscard]] std::vector<SequenceFacts> run() {
+    for (const std::filesystem::path& earlier : suite_.against)
+      in(suite_.against_line, "against", [&] { (void)read_plan(earlier); });
+    for (const SuiteMethod& method : suite_.methods) {
+      in(method.preset_line, "[[method]]", [&] { (void)find_preset(method.preset); });
+      in(method.set_line, "[[method]]", [&] { check_overrides(find_preset(method.preset), method.set); });
+    }
+    std::vector<SequenceFacts> facts;
+    for (const SuiteSequence& sequence : suite_.sequences) facts.push_back(check_sequence(sequence));
+    for (const SuiteReference& reference : suite_.references) check_reference(reference);
+    return facts;
+  }
+
+ private:
+  // Says where in the suite it stands what the check throws.
+  template <class Check>
+  void in(int line, const char* what, Check check) const {
+    try {
+      check();
+    } catch (const std::exception& error) {
+      throw io::Error(suite_.file.string() + ": line " + std::to_string(line) + ": " + what + ": " +
+                      error.what());
+    }
+  }
+
+  [[nodiscard]] SequenceFacts check_sequence(const SuiteSequence& sequence) {
+    SequenceFacts facts;
+    RunSettings settings;
+    settings.dataset = sequence.dataset;
+    settings.camera = sequence.camera;
+    settings.slice = sequence.slice;
+    settings.frame_rate = sequence.frame_rate;
+    io::Dataset dataset;
+    CameraChoice camera;
+    in(sequence.line, "[[sequence]]", [&] {
+      dataset = open_run_dataset(settings);
+      camera = choose_run_camera(settings, dataset);
+      const io::Trajectory truth = sequence.truth.empty()
+                                       ? dataset.ground_truth
+                                       : load_truth(sequence.truth, FileAxes::kAuto).trajectory;
+      facts.truth = truth_during(dataset, truth);
+      if (facts.truth.empty() && !sequence.truth.empty())
+        throw io::Error(sequence.truth.string() + ": no pose at the time of the images of " +
+                        sequence.dataset);
+      facts.frames = io::frame_stamps(dataset);
+    });
+    if (facts.truth.empty())
+      print_note(sequence.name + ": no ground truth, so the tables show the share tracked alone");
+    for (const SuiteMethod& method : suite_.methods) {
+      settings.normals = normals_for(method, sequence);
+      in(method.normals_line, "[[method]]", [&] {
+        check_normals(settings, dataset, camera.depth_factor);
+        // A network takes a while to load: each source is looked at once.
+        if (!settings.normals.empty() && sources_.insert(settings.normals).second)
+          (void)choose_normals(settings.normals);
+      });
+    }
+    return facts;
+  }
+
+  void check_reference(const SuiteReference& reference) const {
+    in(reference.line, "[[reference]]", [&] {
+      for (const auto& [sequence, files] : reference.trajectories) {
+        for (const std::filesystem::path& file : files) {
+          io::Warnings warnings;
+          (void)io::read_trajectory(file, warnings);
+          print_warnings(warnings);
+        }
+      }
+    });
+  }
+
+  const Suite& suite_;
+  std::set<std::string> sources_;  // of normals, already looked at
+};
+
+}  // namespace
+
+std::vector<SequenceFacts> check_suite(const Suite& suite) {
+  return SuiteCheck(suite).run();
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/batch/table_formats.hpp"
+#include "sslam/io/csv_writer.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_text(const fs::path& path, const std::string& text) {
+  io::OutputFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+std::string number(const std::optional<double>& value) {
+  if (!value) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6f", *value);
+  return text;
+}
+
+// As the table looks, with the figures in full: three columns a method.
+void write_table(const fs::path& path, const ResultTable& table) {
+  std::vector<std::string> columns{"sequence"};
+  for (const std::string& name : table.columns) {
+    columns.push_back(name + ": ATE RMSE (m)");
+    columns.push_back(name + ": share tracked");
+    columns.push_back(name + ": failed runs");
+  }
+  io::CsvWriter csv(path, columns);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    std::vector<std::string> cells{table.row_names[r]};
+    for (const TableCell& cell : table.rows[r]) {
+      cells.push_back(number(cell.ate));
+      cells.push_back(number(cell.share));
+      cells.push_back(cell.done > 0 ? std::to_string(cell.failed) : "");
+    }
+    csv.cells(cells);
+  }
+  csv.commit();
+}
+
+void write_runs(const fs::path& path, const Results& results) {
+  io::CsvWriter csv(path, {"sequence", "method", "run", "state", "ate_rmse_m", "ate_rmse_common_frames_m",
+                           "share_tracked", "seconds", "reason"});
+  for (const ResultSequence& sequence : results.sequences) {
+    for (const ResultColumn& column : results.columns) {
+      const auto found = column.by_sequence.find(sequence.name);
+      if (found == column.by_sequence.end()) continue;
+      for (const Estimate& e : found->second) {
+        const char* const state =
+            !e.done ? "not done" : (e.broken ? "failed" : (e.failed ? "lost" : "tracked"));
+        csv.row(sequence.name, column.name, e.title, std::string(state), number(e.ate), number(e.common_ate),
+                number(e.share), number(e.seconds), e.reason);
+      }
+    }
+  }
+  csv.commit();
+}
+
+}  // namespace
+
+void write_tables(const fs::path& folder, const Results& results, const ResultPage& page) {
+  write_text(folder / "tables.md", markdown_page(page));
+  write_text(folder / "tables.tex", latex_page(page));
+  write_text(folder / "tables.html", html_page(page));
+  for (const ResultTable& table : page.tables) write_table(folder / (table.file + ".csv"), table);
+  write_runs(folder / "runs.csv", results);
+}
+
+}  // namespace sslam::cli

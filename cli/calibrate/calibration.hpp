@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From corners in many views to a camera (Zhang, PAMI 2000, as OpenCV does it).
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/calibrate/board.hpp"
+#include "sslam/geometry/camera.hpp"
+
+namespace sslam::cli {
+
+struct Calibration {
+  Camera<double> camera;
+  double error = 0;                     // reprojection, RMS over all corners, pixels
+  double fx_sigma = 0, fy_sigma = 0;    // standard deviations, pixels
+  std::vector<BoardView> views;         // that were used
+  std::vector<double> view_errors;      // RMS of each
+  std::vector<BoardView> left_out;      // outliers
+  std::vector<double> left_out_errors;  // of each, by the camera before it was left out
+  double largest_tilt = 0;              // of a board against the image plane, degrees
+};
+
+inline constexpr std::size_t kLeastViews = 5;
+
+// Leaves out views that fit much worse than the others. Throws io::Error when the views do not give a camera.
+[[nodiscard]] Calibration calibrate(const std::vector<BoardView>& views, cv::Size size, bool with_k3);
+
+}  // namespace sslam::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/image_file.hpp"
+#include "cli/messages.hpp"
+#include "sslam/io/open_dataset.hpp"
+#include "sslam/io/text.hpp"
+
+namespace sslam::cli {
+
+const Preset& find_preset(const std::string& wanted) {
+  std::string known;
+  for (const Preset& preset : kPresets) {
+    if (preset.name == wanted) return preset;
+    known += (known.empty() ? "" : ", ") + std::string(preset.name);
+  }
+  throw io::Error("--preset " + wanted + ": not known; use one of " + known);
+}
+
+ParameterValue parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto value =
+      equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
+  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
+  return {text.substr(0, equals), *value};
+}
+
+io::Dataset open_run_dataset(const RunSettings& settings) {
+  io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
+  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
+  io::apply_slice(dataset, settings.slice);
+  print_warnings(dataset.warnings);
+  return dataset;
+}
+
+CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
+  CameraChoice choice = choose_camera(settings.camera, dataset);
+  Camera<double>& camera = choice.camera;
+  if (camera.width > 0 && camera.height > 0) return choice;
+  if (dataset.layout == io::Layout::kVideo) {
+    cv::VideoCapture video(dataset.root.string());
+    camera.width = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
+    camera.height = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
+    return choice;
+  }
+  std::string why;
+  const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
+  if (first.empty()) throw io::Error(why + "; the camera's size is not known without it");
+  camera.width = first.cols;
+  camera.height = first.rows;
+  return choice;
+}
+
+void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
+  if (settings.normals != "depth") return;
+  const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
+                               [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
+  if (!any)
+    throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
+  if (!(depth_factor > 0))
+    throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
+}
+
+void check_overrides(const Preset& preset, const std::vector<std::string>& set) {
+  TrackSettings track;
+  for (const std::string& text : set) track.overrides.push_back(parse_override(text));
+  // A run over no frames refuses what a run over many would.
+  const io::Dataset nothing;
+  FrameStream stream(nothing, {});
+  Progress silent(0, Verbosity::kQuiet);
+  (void)preset.run(stream, track, silent);
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can be wrong with the settings of a run, found before its first frame: `sslam run` checks itself,
+// `sslam batch` all of its runs. Everything here throws a std::exception with one line.
+#pragma once
+
+#include <string>
+
+#include "cli/camera_choice.hpp"
+#include "cli/normal_choice.hpp"
+#include "cli/presets.hpp"
+#include "cli/run.hpp"
+#include "cli/track_settings.hpp"
+
+namespace sslam::cli {
+
+[[nodiscard]] const Preset& find_preset(const std::string& wanted);
+
+// "stage.parameter=value"
+[[nodiscard]] ParameterValue parse_override(const std::string& text);
+
+// The frames that the settings ask for.
+[[nodiscard]] io::Dataset open_run_dataset(const RunSettings& settings);
+
+// The camera with its size: where its source leaves that out, the first image says it.
+[[nodiscard]] CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset);
+
+// Whether the dataset has what settings.normals need.
+void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
+
+// Whether the preset has all these parameters, and they take these values.
+void check_overrides(const Preset& preset, const std::vector<std::string>& set);
+
+}  // namespace sslam::cli

@@ -1,0 +1,316 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sslam batch` on small rendered rooms: its tables, and what survives a kill. SSLAM_COMMAND names the program.
+
+Usage: batch_test.py [CASE...]
+"""
+import csv
+import html.parser
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["SSLAM_COMMAND"]
+FRAMES = 30
+SUITE = """
+name = "Small & rooms"
+seeds = [1, 2]
+[[sequence]]
+name = "room_a"
+path = "room"
+[[sequence]]
+name = "half of it"
+path = "room"
+end = 20
+[[method]]
+normals = ["none", "depth"]
+"""
+
+
+def sslam(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+class BatchCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="sslam_batch_")
+        cls.folder = pathlib.Path(cls.scratch.name)
+        made = sslam("synth", cls.folder / "room", "--frames", FRAMES, "--size", "320x240", "--seed", 3, "--quiet")
+        assert made.returncode == 0, made.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def suite(self, text, name="suite.toml"):
+        (self.folder / name).write_text(text)
+        return self.folder / name
+
+    def batch(self, *arguments, code=0):
+        done = sslam("batch", *arguments)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def runs(self, out):
+        with open(out / "runs.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+
+def marks(out):
+    """When each run of a batch was done."""
+    return {str(mark.parent.relative_to(out)): mark.stat().st_mtime_ns for mark in out.rglob("run.json")}
+
+
+class TagCheck(html.parser.HTMLParser):
+    """Refuses tags that are not closed in order; counts the others."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.count = [], {}
+
+    def handle_starttag(self, tag, attrs):
+        self.count[tag] = self.count.get(tag, 0) + 1
+        if tag != "meta":
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open.pop() == tag, tag
+
+
+class Tables(BatchCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        truth = (cls.folder / "room/groundtruth.txt").read_text().splitlines()
+        poses = [line for line in truth if not line.startswith("#")]
+        (cls.folder / "other.txt").write_text("\n".join(poses[5:25]) + "\n")
+        (cls.folder / "suite.toml").write_text(
+            SUITE + '[[reference]]\nname = "Other_system"\nmin_tracked = 0.6\ntrajectories = {room_a = "other.txt"}\n')
+        cls.out = cls.folder / "out"
+        cls.done = sslam("batch", cls.folder / "suite.toml", "--out", cls.out)
+
+    def test_all_is_tracked(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        self.assertEqual({run["state"] for run in self.runs(self.out)}, {"tracked"})
+        self.assertEqual(len(self.runs(self.out)), 2 * 2 * 2 + 1)
+        self.assertFalse((self.out / "runs/room_a/structure-none/seed-1/report.html").exists())
+
+    def test_figures_are_those_of_eval(self):
+        for place, name in ((self.out / "runs/room_a/structure-depth/seed-2/trajectory.txt", "room_a, structure, depth, seed 2"),
+                            (self.folder / "other.txt", "room_a, Other_system, room_a-1.txt")):
+            figures = self.folder / "eval.json"
+            self.assertEqual(sslam("eval", self.folder / "room", place, "--json", figures).returncode, 0)
+            wanted = json.loads(figures.read_text())
+            (row,) = [run for run in self.runs(self.out) if run["run"] == name]
+            self.assertAlmostEqual(float(row["ate_rmse_m"]), wanted["ate_m"]["rmse"], places=5)
+            self.assertAlmostEqual(float(row["share_tracked"]), wanted["share_tracked"], places=5)
+
+    def test_csv_has_medians_and_shares(self):
+        with open(self.out / "table.csv", newline="") as file:
+            first, second = csv.DictReader(file)
+        self.assertEqual((first["sequence"], second["sequence"]), ("room_a", "half of it"))
+        for method in ("structure, none", "structure, depth"):
+            errors = [float(run["ate_rmse_m"]) for run in self.runs(self.out)
+                      if (run["sequence"], run["method"]) == ("room_a", method)]
+            self.assertAlmostEqual(float(first[method + ": ATE RMSE (m)"]), sum(errors) / 2, places=5)
+            self.assertEqual(float(first[method + ": share tracked"]), 1)
+        self.assertAlmostEqual(float(first["Other_system: share tracked"]), 20 / FRAMES, places=5)
+        self.assertEqual(second["Other_system: ATE RMSE (m)"], "")
+
+    def test_common_frames_are_those_of_all(self):
+        text = (self.out / "tables.md").read_text()
+        self.assertIn(f"(20 of {FRAMES} frames)", text)
+        self.assertIn("(20 of 20 frames)", text)
+        (row,) = [run for run in self.runs(self.out) if run["run"] == "room_a, structure, none, seed 1"]
+        estimate = (self.out / "runs/room_a/structure-none/seed-1/trajectory.txt").read_text().splitlines()
+        cut = self.folder / "cut.txt"
+        cut.write_text("\n".join(estimate[1:][5:25]) + "\n")
+        sslam("eval", self.folder / "room", cut, "--json", self.folder / "cut.json")
+        wanted = json.loads((self.folder / "cut.json").read_text())["ate_m"]["rmse"]
+        self.assertAlmostEqual(float(row["ate_rmse_common_frames_m"]), wanted, places=5)
+
+    def test_markdown(self):
+        lines = [line for line in (self.out / "tables.md").read_text().splitlines() if line.startswith("|")]
+        self.assertEqual(len(lines), 2 * 4)
+        self.assertEqual({len(re.findall(r"(?<!\\)\|", line)) for line in lines}, {3 + 2})
+        self.assertIn("room\\_a", lines[2])
+        self.assertRegex(lines[2], r"\*\*0\.0000 \(67 %\)\*\*")
+        self.assertIn(lines[3], self.done.stdout)
+
+    def test_latex(self):
+        text = (self.out / "tables.tex").read_text()
+        depth = 0
+        for char in re.sub(r"\\[{}%&#_$]|(?m:^%.*$)", "", text):
+            depth += {"{": 1, "}": -1}.get(char, 0)
+            self.assertGreaterEqual(depth, 0)
+        self.assertEqual(depth, 0)
+        rows = [line for line in text.splitlines() if line.endswith(r"\\")]
+        self.assertEqual(len(rows), 2 * 3)
+        self.assertEqual({len(re.findall(r"(?<!\\)&", row)) for row in rows}, {3})
+        self.assertEqual(text.count(r"\begin{tabular}{lccc}"), 2)
+        self.assertIn(r"\textbf{0.0000 (67 \%)}", text)
+
+    def test_html(self):
+        text = (self.out / "tables.html").read_text()
+        check = TagCheck()
+        check.feed(text)
+        self.assertEqual(check.open, [])
+        self.assertEqual((check.count["table"], check.count["tr"], check.count["td"]), (2, 6, 12))
+        self.assertIn("<title>Small &amp; rooms</title>", text)
+
+    def test_an_earlier_batch_stands_beside(self):
+        again = self.batch(self.folder / "suite.toml", "--out", self.out, "--against", self.out)
+        self.assertIn("8 runs were done before and are kept", again.stderr)
+        self.assertIn("structure, none (out)", again.stdout)
+        self.batch(self.folder / "suite.toml", "--out", self.out)
+
+
+class Resuming(BatchCase):
+    def kill_in_the_middle(self, suite, out):
+        """Ends a batch by SIGKILL when it has done a run and is at another; returns its child."""
+        with subprocess.Popen([PROGRAM, "batch", suite, "--out", out, "--jobs", "1"],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as batch:
+            while batch.poll() is None:
+                children = pathlib.Path(f"/proc/{batch.pid}/task/{batch.pid}/children").read_text().split()
+                if marks(out) and children:
+                    batch.kill()
+                    return int(children[0])
+                time.sleep(0.002)
+        self.fail("the batch was done before it could be killed")
+
+    def test_kill_loses_the_run_in_progress_alone(self):
+        suite, out, whole = self.suite(SUITE), self.folder / "killed", self.folder / "whole"
+        child = self.kill_in_the_middle(suite, out)
+        for _ in range(1000):
+            if not pathlib.Path(f"/proc/{child}").exists():
+                break
+            time.sleep(0.01)
+        self.assertFalse(pathlib.Path(f"/proc/{child}").exists(), "a run goes on without its batch")
+        before = marks(out)
+        begun = len(list(out.rglob("log.txt")))
+        self.assertIn(begun - len(before), (0, 1))
+        done = self.batch(suite, "--out", out)
+        after = marks(out)
+        self.assertEqual(len(after), 8)
+        self.assertEqual({run: after[run] for run in before}, before)
+        self.assertIn(f"{len(before)} runs were done before and are kept", done.stderr)
+        self.batch(suite, "--out", whole)
+        self.assertEqual((out / "table.csv").read_text(), (whole / "table.csv").read_text())
+
+    def test_half_a_run_and_other_settings_are_done_again(self):
+        suite, out = self.suite(SUITE, "again.toml"), self.folder / "again"
+        self.batch(suite, "--out", out)
+        before = marks(out)
+        stale = out / "runs/room_a/structure-none/seed-1"
+        (stale / "run.json").unlink()
+        (stale / "left_over.txt").write_text("of a run that was killed")
+        (out / "runs/room_a/structure-none/seed-2/trajectory.txt").unlink()
+        (out / "runs/room_a/structure-depth/seed-1/run.json").write_text('{"end": "tra')
+        self.batch(suite, "--out", out)
+        after = marks(out)
+        changed = {run for run in before if before[run] != after[run]}
+        self.assertEqual(changed, {f"runs/room_a/{run}" for run in
+                                   ("structure-none/seed-1", "structure-none/seed-2", "structure-depth/seed-1")})
+        self.assertFalse((stale / "left_over.txt").exists())
+        self.suite(SUITE.replace("end = 20", "end = 19"), "again.toml")
+        self.batch(suite, "--out", out)
+        changed = {run.split("/")[1] for run, when in marks(out).items() if when != after[run]}
+        self.assertEqual(changed, {"half-of-it"})
+
+    def test_interrupt_keeps_what_is_done(self):
+        suite, out = self.suite(SUITE, "int.toml"), self.folder / "interrupted"
+        with subprocess.Popen([PROGRAM, "batch", suite, "--out", out, "--jobs", "1"], text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as batch:
+            while batch.poll() is None and not marks(out):
+                time.sleep(0.002)
+            batch.send_signal(signal.SIGINT)
+            said = batch.communicate()
+        self.assertEqual(batch.returncode, 130, said)
+        self.assertIn("interrupted; the runs that are done are kept", said[1])
+        self.assertIn("Not done yet: ", said[0])
+        before = marks(out)
+        self.batch(suite, "--out", out)
+        self.assertEqual({run: marks(out)[run] for run in before}, before)
+
+    def test_one_batch_at_a_time(self):
+        suite, out = self.suite(SUITE, "two.toml"), self.folder / "two"
+        with subprocess.Popen([PROGRAM, "batch", suite, "--out", out], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as batch:
+            while batch.poll() is None and not (out / "batch.json").exists():
+                time.sleep(0.002)
+            second = self.batch(suite, "--out", out, code=1)
+            batch.terminate()
+        self.assertIn("another sslam batch is at work there", second.stderr)
+
+
+class Shards(BatchCase):
+    def test_merged_shards_are_the_whole(self):
+        suite, out = self.suite(SUITE), self.folder / "sharded"
+        for shard in ("1/3", "2/3", "3/3"):
+            self.batch(suite, "--out", out, "--shard", shard)
+        shards = sorted(out.glob("shard-*-of-3"))
+        self.assertEqual([len(marks(shard)) for shard in shards], [3, 3, 2])
+        merged, whole = self.folder / "merged", self.folder / "whole"
+        self.batch("merge", *shards, "--out", merged)
+        self.batch(suite, "--out", whole)
+        for name in ("table.csv", "common_frames.csv", "tables.md", "tables.tex", "tables.html"):
+            self.assertEqual((merged / name).read_text(), (whole / name).read_text())
+        beside = self.batch(suite, "--out", whole, "--against", merged)
+        self.assertIn("structure, none (merged)", beside.stdout)
+        self.assertIn("is one of the folders to merge", self.batch("merge", *shards, "--out", shards[0], code=1).stderr)
+        lacking = self.batch("merge", *shards[:2], "--out", self.folder / "lacking", code=1)
+        self.assertIn("2 of 8 runs are in none of these folders", lacking.stderr)
+        self.assertIn("Not done yet: 2 runs", lacking.stdout)
+        other = self.folder / "other"
+        self.batch(self.suite(SUITE.replace("end = 20", "end = 15"), "other.toml"), "--out", other)
+        self.assertIn("is not a shard of the same suite as", self.batch("merge", shards[0], other, code=1).stderr)
+
+
+class Failures(BatchCase):
+    def test_they_stand_in_the_table_and_stop_nobody(self):
+        shutil.copytree(self.folder / "room", self.folder / "broken")
+        shutil.copytree(self.folder / "room", self.folder / "still")
+        for image in (self.folder / "broken/rgb").iterdir():
+            image.write_bytes(b"no image")
+        frames = sorted((self.folder / "still/rgb").iterdir())
+        for image in frames[1:]:
+            shutil.copy(frames[0], image)
+        suite = self.suite('[[sequence]]\npath = "broken"\n[[sequence]]\npath = "still"\n[[sequence]]\npath = "room"\n'
+                           '[[method]]\nnormals = "none"\n')
+        out = self.folder / "out"
+        done = self.batch(suite, "--out", out, code=1)
+        self.assertRegex(done.stderr, r"sslam: error: 1 of 3 runs failed unexpectedly; [^\n]*tables.md says why[^\n]*\n$")
+        self.assertEqual([run["state"] for run in self.runs(out)], ["failed", "lost", "tracked"])
+        text = (out / "tables.md").read_text()
+        self.assertRegex(text, r"\| broken \| failed \|")
+        self.assertRegex(text, "\\| still \\| \u00d7 \\(0 %\\) \\|")
+        self.assertRegex(text, r"- Failed unexpectedly: broken, structure, none, seed 1: [^\n]*no image could be read")
+        self.assertRegex(text, r"- Lost: still, structure, none, seed 1: ")
+        self.assertIn("$\\times$", (out / "tables.tex").read_text())
+        # A failure may have had a cause that is gone: it is tried again, and the others are kept.
+        before = marks(out)
+        shutil.rmtree(self.folder / "broken")
+        shutil.copytree(self.folder / "room", self.folder / "broken")
+        self.batch(suite, "--out", out)
+        changed = {run.split("/")[1] for run, when in marks(out).items() if when != before[run]}
+        self.assertEqual(changed, {"broken"})
+
+    def test_too_little_tracked_is_lost(self):
+        suite = self.suite('min_tracked = 1.0\n[[sequence]]\npath = "room"\n[[method]]\nnormals = "none"\n'
+                           '[[reference]]\nname = "Sparse"\ntrajectories = {room = "sparse.txt"}\n', "strict.toml")
+        truth = (self.folder / "room/groundtruth.txt").read_text().splitlines()
+        (self.folder / "sparse.txt").write_text("\n".join(truth[::3]) + "\n")
+        done = self.batch(suite, "--out", self.folder / "strict")
+        self.assertRegex(done.stdout, "Lost: room, Sparse, room-1.txt: tracked [0-9.]+ % of the frames, less than 100.0 %")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam calibrate` on rendered boards: the camera that took them comes back, and what bad views get.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/board_renderer.hpp"
+#include "cli/program.hpp"
+#include "sslam/opencv/camera_file.hpp"
+#include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace sslam::testing;
+
+constexpr double kSquare = 0.03;
+
+struct Placement {
+  cv::Vec3d turn, middle;
+};
+
+// To all sides, near and far, into the corners of the image.
+std::vector<Placement> good_placements() {
+  return {{{0, 0, 0.05}, {0, 0, 0.45}},
+          {{0.5, 0, 0}, {-0.05, -0.04, 0.5}},
+          {{-0.5, 0, 0.1}, {0.06, 0.04, 0.5}},
+          {{0, 0.55, 0}, {-0.12, 0.07, 0.55}},
+          {{0, -0.55, 0}, {0.12, -0.07, 0.55}},
+          {{0.35, 0.35, 0.2}, {0.1, 0.08, 0.5}},
+          {{-0.35, 0.4, 0}, {-0.11, -0.08, 0.5}},
+          {{0.4, -0.35, 0}, {0.12, -0.08, 0.55}},
+          {{-0.4, -0.3, 0.3}, {-0.1, 0.08, 0.55}},
+          {{0.2, 0.2, 1.5}, {0.02, 0, 0.6}},
+          {{0.7, 0, 0}, {0, 0, 0.6}},
+          {{0, 0.7, 0}, {0, 0, 0.6}}};
+}
+
+// A folder of photographs, named by number.
+void shoot(const fs::path& folder, const std::vector<Placement>& placements, const BoardPicture& board,
+           const TrueCamera& camera = {}) {
+  fs::create_directories(folder);
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    REQUIRE(cv::imwrite((folder / (std::to_string(i) + ".png")).string(),
+                        photograph(camera, board, placements[i].turn, placements[i].middle)));
+}
+
+const BoardPicture& chessboard() {
+  static const BoardPicture board = chessboard_picture(8, 5, kSquare);
+  return board;
+}
+
+struct Session {
+  ScratchFolder scratch;
+  fs::path folder = scratch.path() / "views";
+  fs::path out = scratch.path() / "camera.yaml";
+
+  [[nodiscard]] Outcome calibrate(const std::string& options = "--size 8x5") const {
+    return run_program("calibrate " + folder.string() + " --quiet --square 0.03 --out " + out.string() + " " +
+                       options);
+  }
+};
+
+void require_camera(const fs::path& file, const TrueCamera& wanted) {
+  const sslam::CameraFile found = sslam::read_camera_file(file);
+  const auto& pinhole = found.camera.pinhole;
+  INFO(text_of(file));
+  REQUIRE(std::abs(pinhole.fx - wanted.fx) < 0.005 * wanted.fx);
+  REQUIRE(std::abs(pinhole.fy - wanted.fy) < 0.005 * wanted.fy);
+  REQUIRE(std::abs(pinhole.cx - wanted.cx) < 1.5);
+  REQUIRE(std::abs(pinhole.cy - wanted.cy) < 1.5);
+  REQUIRE(std::abs(found.camera.distortion.k1 - wanted.lens(0)) < 0.01);
+  REQUIRE(std::abs(found.camera.distortion.k2 - wanted.lens(1)) < 0.03);
+  REQUIRE(std::abs(found.camera.distortion.p1 - wanted.lens(2)) < 0.001);
+  REQUIRE(std::abs(found.camera.distortion.p2 - wanted.lens(3)) < 0.001);
+  REQUIRE(found.camera.width == wanted.size.width);
+  REQUIRE(found.camera.height == wanted.size.height);
+}
+
+// Exit code 1, one line of error, and no camera.
+void require_refused(const Session& session, const Outcome& outcome, const std::string& what) {
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 1);
+  REQUIRE(outcome.text.find("sslam: error: ") == 0);
+  REQUIRE(outcome.text.find(what) != std::string::npos);
+  REQUIRE(outcome.text.find('\n') == outcome.text.size() - 1);
+  REQUIRE_FALSE(fs::exists(session.out));
+}
+
+}  // namespace
+
+TEST_CASE("calibrate finds the camera that saw a chessboard") {
+  const Session session;
+  shoot(session.folder, good_placements(), chessboard());
+  const Outcome outcome = session.calibrate();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  require_camera(session.out, {});
+  REQUIRE(outcome.text.find("views            12 used of 12 images") != std::string::npos);
+  REQUIRE(outcome.text.find("11.png\n") != std::string::npos);
+  const cv::Mat picture = cv::imread((session.scratch.path() / "camera_coverage.png").string());
+  REQUIRE(picture.size() == TrueCamera{}.size);
+  REQUIRE(text_of(session.out).find("# sslam calibrate: reprojection error 0.") != std::string::npos);
+}
+
+TEST_CASE("calibrate finds the camera that saw a ChArUco board, partly outside the image too") {
+  const Session session;
+  std::vector<Placement> placements = good_placements();
+  placements[3].middle = {-0.2, 0.12, 0.5};
+  shoot(session.folder, placements, charuco_picture(9, 6, kSquare));
+  const Outcome outcome = session.calibrate("--pattern charuco --size 9x6");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  require_camera(session.out, {});
+}
+
+TEST_CASE("calibrate takes a video, and each view of it once") {
+  Session session;
+  session.folder = session.scratch.path() / "board.avi";
+  {
+    cv::VideoWriter video(session.folder.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25,
+                          TrueCamera{}.size);
+    REQUIRE(video.isOpened());
+    for (const Placement& placement : good_placements()) {
+      cv::Mat colour;
+      cv::cvtColor(photograph({}, chessboard(), placement.turn, placement.middle), colour,
+                   cv::COLOR_GRAY2BGR);
+      for (int i = 0; i < 2; ++i) video.write(colour);
+    }
+  }
+  const Outcome outcome = session.calibrate();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  require_camera(session.out, {});
+  REQUIRE(sslam::read_camera_file(session.out).frame_rate == 25);
+  REQUIRE(outcome.text.find("12 used of 24 images; 0 without a board, 12 like an earlier one") !=
+          std::string::npos);
+}
+
+TEST_CASE("calibrate leaves a view out that does not fit, and says so") {
+  const Session session;
+  shoot(session.folder, good_placements(), chessboard());
+  TrueCamera zoomed;
+  zoomed.fx = zoomed.fy = 640;
+  const Placement placement = good_placements()[5];
+  cv::imwrite(
+      (session.folder / "zoomed.png").string(),
+      photograph(zoomed, chessboard(), placement.turn, placement.middle + cv::Vec3d(-0.1, -0.05, 0.1)));
+  cv::imwrite((session.folder / "wall.png").string(), cv::Mat(TrueCamera{}.size, CV_8UC1, cv::Scalar(128)));
+  const Outcome outcome = session.calibrate();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("sslam: note: left out zoomed.png: ") != std::string::npos);
+  REQUIRE(outcome.text.find("12 used of 14 images; 1 without a board") != std::string::npos);
+  require_camera(session.out, {});
+}
+
+TEST_CASE("calibrate says where the views do not suffice") {
+  const Session session;
+  SECTION("too few") {
+    const auto all = good_placements();
+    shoot(session.folder, {all[0], all[1], all[2], all[2]}, chessboard());
+    require_refused(session, session.calibrate(),
+                    "3 different views of the board, of 4 images; needs at least 5");
+  }
+  SECTION("all from the front") {
+    std::vector<Placement> frontal;
+    for (int i = 0; i < 8; ++i)
+      frontal.push_back({{0, 0, 0.1 * i}, {0.03 * (i % 3 - 1), 0.02 * (i / 3 - 1), 0.45 + 0.03 * i}});
+    shoot(session.folder, frontal, chessboard());
+    require_refused(session, session.calibrate(), "the views do not determine the focal length");
+  }
+  SECTION("no board") {
+    fs::create_directories(session.folder);
+    for (const char* name : {"a.png", "b.png"})
+      cv::imwrite((session.folder / name).string(), cv::Mat(TrueCamera{}.size, CV_8UC1, cv::Scalar(128)));
+    require_refused(session, session.calibrate(),
+                    "no board of 8x5 inner corners in any of 2 images; check --pattern");
+  }
+  SECTION("images of two sizes") {
+    shoot(session.folder, good_placements(), chessboard());
+    cv::imwrite((session.folder / "12.png").string(), cv::Mat(240, 320, CV_8UC1, cv::Scalar(128)));
+    require_refused(session, session.calibrate(),
+                    "12.png: has 320x240 pixels, and 0.png 640x480; a camera is");
+  }
+}
+
+TEST_CASE("calibrate says which board is there instead") {
+  const Session session;
+  SECTION("squares counted") {
+    shoot(session.folder, {good_placements()[0]}, chessboard());
+    require_refused(
+        session, session.calibrate("--size 9x6"),
+        "no board of 9x6 inner corners in any of 1 images; one of 8x5 is there: --size counts inner corners");
+  }
+  SECTION("another dictionary") {
+    shoot(session.folder, {good_placements()[0]}, charuco_picture(9, 6, kSquare));
+    require_refused(session, session.calibrate("--pattern charuco --size 9x6 --dictionary 6x6_250"),
+                    "markers of --dictionary 4x4_50 are there");
+  }
+  SECTION("a ChArUco board of another width") {
+    shoot(session.folder, good_placements(), charuco_picture(9, 6, kSquare));
+    require_refused(session, session.calibrate("--pattern charuco --size 7x8"), "check --size and --pattern");
+  }
+}
