@@ -70,7 +70,7 @@ void check_overrides(const Preset& preset, const std::vector<std::string>& set) 
   // A run over no frames refuses what a run over many would.
   const io::Dataset nothing;
   FrameStream stream(nothing, {});
-  Progress silent(0, Verbosity::kQuiet);
+  Progress silent(0, Verbosity::kQuiet, "run");
   (void)preset.run(stream, track, silent);
 }
 

@@ -113,10 +113,12 @@ void run_merge(const MergeOptions& options) {
 void add_merge_command(CLI::App& batch) {
   CLI::App* merge = batch.add_subcommand("merge", "Tables of all shards of a batch together");
   auto options = std::make_shared<MergeOptions>();
-  merge->add_option("FOLDERS", options->folders, "the shards' folders")->required();
-  merge->add_option("--out", options->out, "folder for the tables")->capture_default_str();
-  merge->add_option("--against", options->against,
-                    "folder of an earlier batch to compare with; may be repeated");
+  merge->add_option("FOLDERS", options->folders, "the shards' folders")->required()->type_name("DIR");
+  merge->add_option("--out", options->out, "folder for the tables")->capture_default_str()->type_name("DIR");
+  merge
+      ->add_option("--against", options->against,
+                   "folder of an earlier batch to compare with; may be repeated")
+      ->type_name("DIR");
   merge->callback([options] { run_merge(*options); });
 }
 
@@ -126,19 +128,24 @@ void add_batch_command(CLI::App& app) {
   CLI::App* batch = app.add_subcommand(
       "batch", "Many sequences, presets and seeds in parallel, and a table of the results");
   auto options = std::make_shared<BatchOptions>();
-  CLI::Option* const suite = batch->add_option("SUITE", options->suite, "TOML file, see docs/batch.md");
-  batch->add_option(
-      "--out", options->out,
-      "folder for the results; default as the suite says, else SUITE_results. Runs that are done "
-      "there by the same settings are kept");
+  CLI::Option* const suite =
+      batch->add_option("SUITE", options->suite, "TOML file, see docs/batch.md")->type_name("FILE");
+  batch
+      ->add_option(
+          "--out", options->out,
+          "folder for the results; default as the suite says, else SUITE_results. Runs that are done "
+          "there by the same settings are kept")
+      ->type_name("DIR");
   batch->add_option("--jobs", options->jobs, "runs at a time, each on a core of its own; default one a core")
       ->check(CLI::Range(1, 1024).description(""));
   batch->add_option("--shard", options->shard, "i/n: every n-th run, from the i-th on, into OUT/shard-i-of-n")
       ->check([](const std::string& text) {
         return parse_shard(text) ? std::string() : "'" + text + "' is not a part such as 2/8";
       });
-  batch->add_option("--against", options->against,
-                    "folder of an earlier batch to compare with; may be repeated");
+  batch
+      ->add_option("--against", options->against,
+                   "folder of an earlier batch to compare with; may be repeated")
+      ->type_name("DIR");
   batch->add_flag("--list", options->list, "check the suite, print the folder of each run, and stop");
   batch->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::kQuiet; }, "no progress");

@@ -45,7 +45,7 @@ BoardViews find_views(const io::Dataset& dataset, const Board& board, Verbosity 
   FrameReader reader(dataset);
   const bool video = dataset.layout == io::Layout::kVideo;
   const std::size_t stride = video ? dataset.frames.size() / kMostVideoFrames + 1 : 1;
-  Progress progress((dataset.frames.size() + stride - 1) / stride, verbosity);
+  Progress progress((dataset.frames.size() + stride - 1) / stride, verbosity, "calibrate");
   const Interrupt interrupt;
   std::vector<cv::Mat> boardless;
   std::string first;

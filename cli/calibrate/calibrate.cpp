@@ -15,6 +15,8 @@
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/open_images.hpp"
+#include "cli/option_info.hpp"
+#include "cli/progress_options.hpp"
 #include "sslam/core/types.hpp"
 #include "sslam/io/output_file.hpp"
 
@@ -119,6 +121,7 @@ void add_board_options(CLI::App& command, BoardSettings& board) {
   const std::map<std::string, Pattern> patterns{{"chessboard", Pattern::kChessboard},
                                                 {"charuco", Pattern::kCharuco}};
   command.add_option("--pattern", board.pattern, "chessboard or charuco; default chessboard")
+      ->type_name(words_type({"chessboard", "charuco"}))
       ->transform(CLI::CheckedTransformer(patterns).description(""));
   command
       .add_option_function<std::string>(
@@ -146,17 +149,19 @@ void add_calibrate_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("calibrate", "A camera file from images of a chessboard or a ChArUco board");
   auto s = std::make_shared<CalibrateSettings>();
-  command->add_option("IMAGES", s->images, "folder of images, quoted glob, or video")->required();
+  command->add_option("IMAGES", s->images, "folder of images, quoted glob, or video")
+      ->required()
+      ->type_name("FILE");
   add_board_options(*command, s->board);
   command->add_option("--out", s->out, "camera file; NAME_coverage.png goes beside it")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("FILE");
   command
       ->add_option("--fps", s->frame_rate, "frames a second for the camera file; default those of the video")
       ->check(CLI::PositiveNumber);
   command->add_flag("--k3", s->k3,
                     "a third radial coefficient, for wide lenses that are covered to the corners");
-  command->add_flag_callback(
-      "--quiet", [s] { s->verbosity = Verbosity::kQuiet; }, "no progress");
+  add_progress_options(*command, s->verbosity, false);
   command->callback([s] { run_calibrate(*s); });
 }
 
