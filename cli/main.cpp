@@ -60,6 +60,7 @@ int run_main(int argc, char** argv) {
   add_eval_command(app);
   add_normals_command(app);
   add_report_command(app);
+  add_view_command(app);
   add_export_command(app);
   add_synth_command(app);
   add_demo_command(app);

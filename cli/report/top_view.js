@@ -9,6 +9,8 @@ class TopView {
     shown.listen(() => this.draw());
   }
 
+  renew() { this.draw(); }
+
   setLayer(name, on) {
     if (on) this.layers.add(name);
     else this.layers.delete(name);

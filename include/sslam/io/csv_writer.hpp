@@ -28,6 +28,11 @@ class CsvWriter {
     end_row();
   }
 
+  void row(const std::vector<std::string>& cells) {
+    for (const std::string& cell : cells) write_cell(cell);
+    end_row();
+  }
+
   // Throws Error when not all of it could be written.
   void commit() { file_.commit(); }
 
