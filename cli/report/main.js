@@ -32,7 +32,7 @@ function showTitle() {
   document.title = `${name} · sslam ${kKinds[run.kind]}`;
   byId("kind").textContent = kKinds[run.kind];
   const parts = [run.settings.preset && `preset ${run.settings.preset}`, run.settings.normals && `normals ${run.settings.normals}`,
-    run.settings.seed !== undefined && `seed ${run.settings.seed}`, `in ${run.folder}`, run.program];
+    run.settings.seed !== undefined && `seed ${run.settings.seed}`, run.folder !== name && `in ${run.folder}`, run.program];
   byId("subtitle").textContent = parts.filter(Boolean).join(" · ");
 }
 
