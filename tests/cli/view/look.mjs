@@ -82,11 +82,14 @@ async function lookBack(page, run) {
   await page.run("document.querySelector('[data-layer=points]').click()");
   await page.run("byId('canvas').focus()");
   await page.press("ArrowLeft");
+  await page.drag([400, 500], [440, 510]);
+  await page.run("document.querySelector('#story button').focus()");
   const look = "view3d.viewpoint.camera.position.toArray()";
   const before = await page.run(look), count = await page.run("run.frames.count");
   await trackUntil(run, page, count);
   assert.equal(await page.run("shown.row"), 3);
   assert.deepEqual(await page.run(look), before);
+  assert.equal(await page.run("document.activeElement.textContent"), "Show");
   assert.equal(await page.run("view3d.layers.points.visible"), false);
 }
 
