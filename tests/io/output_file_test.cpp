@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/io/output_file.hpp"
 
+#include <string>
+#include <vector>
+
 #include "errors.hpp"
 #include "sslam/io/csv_writer.hpp"
 #include "support/scratch_folder.hpp"
