@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/live_view.hpp"
 
+#include <cstdio>
+
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/report.hpp"
@@ -21,6 +23,7 @@ void LiveView::show_report() {
   const nlohmann::ordered_json data = report_data(run);
   run_.finish(report_html(data, run.views));
   const Interrupt interrupt;
+  std::fflush(stdout);  // the summary
   print_note("the run is over; its report stays at " + server_.address() + " until Ctrl-C");
   wait_for(interrupt);
 }

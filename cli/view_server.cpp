@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/view_server.hpp"
 
-#include <httplib.h>
+#include <httplib.h>  // what it includes defines a macro that Eigen's headers do not survive: keep them apart
 
 #include <cerrno>
 #include <chrono>
