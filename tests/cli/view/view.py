@@ -20,7 +20,7 @@ FRAMES = 60
 
 
 def call(program, *arguments, code=0):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=120)  # no server is left behind
     assert done.returncode == code, (arguments, done)
     return done
 
