@@ -13,6 +13,7 @@ void add_eval_command(CLI::App& app);       // eval.cpp
 void add_synth_command(CLI::App& app);      // synth.cpp
 void add_normals_command(CLI::App& app);    // normals.cpp
 void add_report_command(CLI::App& app);     // report.cpp
+void add_view_command(CLI::App& app);       // view.cpp
 void add_export_command(CLI::App& app);     // export.cpp
 void add_batch_command(CLI::App& app);      // batch/batch.cpp
 void add_calibrate_command(CLI::App& app);  // calibrate/calibrate.cpp

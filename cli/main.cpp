@@ -61,6 +61,7 @@ int run_main(int argc, char** argv) {
   add_eval_command(app);
   add_normals_command(app);
   add_report_command(app);
+  add_view_command(app);
   add_export_command(app);
   add_batch_command(app);
   add_calibrate_command(app);

@@ -35,17 +35,20 @@ std::string script_json(const nlohmann::ordered_json& data) {
 
 }  // namespace
 
+std::string report_html(const nlohmann::ordered_json& data, const std::vector<std::string>& views) {
+  const ReportPage page = report_page();
+  std::string html(page.before_data);
+  html += script_json(data);
+  html += page.before_views;
+  for (const std::string& view : choose_views(views)) html += base64(view) + '\n';
+  return html += page.after_views;
+}
+
 void write_report(const std::filesystem::path& folder) {
   RunFolder run = read_run_folder(folder);
-  nlohmann::ordered_json data = report_data(run);
-  data["program"] = std::string("sslam ") + SSLAM_VERSION;
-  std::error_code ignored;
-  data["folder"] = std::filesystem::weakly_canonical(folder, ignored).filename().string();
+  const nlohmann::ordered_json data = report_data(run);
   io::OutputFile file(folder / kReportFile);
-  const ReportPage page = report_page();
-  file.stream() << page.before_data << script_json(data) << page.before_views;
-  for (const std::string& view : choose_views(run.views)) file.stream() << base64(view) << '\n';
-  file.stream() << page.after_views;
+  file.stream() << report_html(data, run.views);
   file.commit();
   print_warnings(run.problems);
 }

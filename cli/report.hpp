@@ -4,10 +4,18 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
 namespace sslam::cli {
 
 inline constexpr std::size_t kMaxViews = 1000;  // that a run keeps for its report, however long it is
+
+// The page. data: what report_data gives, which may have members for other kinds of page
+// (cli/report/data.js).
+[[nodiscard]] std::string report_html(const nlohmann::ordered_json& data,
+                                      const std::vector<std::string>& views);
 
 // Reads the run's folder and writes its report there; warns about files that cannot be used. Throws io::Error
 // when there is no run, or when the report cannot be written.

@@ -118,6 +118,8 @@ class DataMaker {
                               error.what());
     }
     data_["problems"] = run_.problems;
+    data_["program"] = std::string("sslam ") + SSLAM_VERSION;
+    data_["folder"] = run_.name;
     return std::move(data_);
   }
 

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/config_file.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/live_view.hpp"
 #include "cli/messages.hpp"
 #include "cli/option_info.hpp"
 #include "cli/overlay_video.hpp"
@@ -19,6 +20,7 @@
 #include "cli/run_check.hpp"
 #include "cli/run_report.hpp"
 #include "cli/shipped_model.hpp"
+#include "cli/view_options.hpp"
 #include "sslam/io/map_file.hpp"
 
 namespace sslam::cli {
@@ -45,18 +47,25 @@ void run(RunSettings settings) {
   stream_settings.normals = choose_normals(settings.normals);
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
-  stream_settings.keep_pictures = settings.report || !settings.video.empty();
+  stream_settings.keep_pictures = settings.report || settings.view || !settings.video.empty();
   std::optional<OverlayVideo> video;
   if (!settings.video.empty()) {
     video.emplace(settings.video, dataset, camera.camera);
-    track.watcher = [&video](const auto&... seen) { video->add(seen...); };
+    track.watchers.emplace_back(
+        [&video](const WatchedFrame& seen) { video->add(seen.record, seen.view, seen.frame); });
+  }
+  const RunContext context{settings, dataset, camera.source, camera.camera};
+  std::optional<LiveView> live;
+  if (settings.view) {
+    live.emplace(context);
+    track.watchers.emplace_back([&live](const WatchedFrame& seen) { live->add(seen); });
   }
   FrameStream stream(dataset, std::move(stream_settings));
   if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
   Progress progress(stream.size(), settings.verbosity, "run");
   const RunOutcome outcome = preset.run(stream, track, progress);
   print_warnings(outcome.warnings);
-  write_run({settings, dataset, camera.source, camera.camera}, outcome);
+  write_run(context, outcome);
   if (settings.report) write_report(settings.out);
   if (video) video->commit();
   if (outcome.interrupted) {
@@ -66,8 +75,10 @@ void run(RunSettings settings) {
   if (outcome.trajectory.empty()) {
     const char* const reason =
         outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
-    throw io::Error(settings.dataset + ": no frame was tracked; last reason: " + reason);
+    print_error(settings.dataset + ": no frame was tracked; last reason: " + reason);
   }
+  if (live) live->show_report();
+  if (outcome.trajectory.empty()) throw Stop{ExitCode::kFailed};
 }
 
 void add_run_command(CLI::App& app) {
@@ -119,6 +130,10 @@ void add_run_command(CLI::App& app) {
       ->add_option("--video", s->video,
                    "Overlay video to write, .mp4 or .avi: features, segments by axis, normals, state")
       ->type_name("FILE");
+  CLI::Option* const view = command->add_flag(
+      "--view", s->view,
+      "Show the run in a browser on this machine while it goes on, then its report until Ctrl-C");
+  add_port_option(*command, s->port)->needs(view);
   command->add_flag_callback(
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   add_progress_options(*command, s->verbosity, true);

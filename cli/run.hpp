@@ -29,6 +29,8 @@ struct RunSettings {
   std::uint64_t seed = 1;
   bool report = true;      // write report.html
   std::string video;       // overlay video to write; empty: none
+  bool view = false;       // show the run while it goes on, and its report until Ctrl-C
+  int port = 0;            // of that page; 0: any free one
   double frame_rate = 30;  // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
 };

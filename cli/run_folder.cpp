@@ -21,6 +21,7 @@ class Reader {
       throw io::Error(folder_.string() + ": " +
                       (fs::exists(folder_, error) ? "is no folder" : "no such folder") +
                       "; wants the one that `sslam run --out` has written to");
+    run_.name = folder_name(folder_);
     const bool has_metrics = take("metrics.json", [&](const fs::path& path) { read_metrics(path); });
     const bool has_frames =
         take("frames.csv", [&](const fs::path& path) { run_.frames = io::read_csv(path, run_.problems); });
@@ -77,6 +78,11 @@ class Reader {
 };
 
 }  // namespace
+
+std::string folder_name(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::weakly_canonical(folder, ignored).filename().string();
+}
 
 RunFolder read_run_folder(const fs::path& folder) {
   return Reader(folder).read();

@@ -19,6 +19,7 @@ inline constexpr const char* kViewFile = "views.bin";
 inline constexpr const char* kReportFile = "report.html";
 
 struct RunFolder {
+  std::string name;  // of the folder, for people
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
   io::CsvTable frames;
   io::Trajectory trajectory, keyframes, truth;
@@ -26,6 +27,9 @@ struct RunFolder {
   std::vector<std::string> views;
   std::vector<std::string> problems;  // a line each: a file that is missing, damaged or flawed
 };
+
+// For people, however its path is written.
+[[nodiscard]] std::string folder_name(const std::filesystem::path& folder);
 
 // Throws io::Error when `folder` is none, or holds neither frames.csv nor metrics.json in a readable state.
 [[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);

@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "cli/eval_report.hpp"
+#include "cli/frame_table.hpp"
+#include "cli/map_figures.hpp"
 #include "cli/map_ply.hpp"
 #include "cli/messages.hpp"
 #include "cli/run_folder.hpp"
@@ -27,30 +29,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 void write_frames(const fs::path& path, const RunOutcome& outcome) {
-  std::vector<std::string> columns{
-      "index",       "stamp",     "image",         "state",        "reason",       "points",
-      "lines",       "normals",   "point_inliers", "line_inliers", "axes_seen",    "keyframe",
-      "loop_closed", "points_ms", "lines_ms",      "normals_ms",   "extraction_ms"};
-  for (int s = 0; s < kStageCount; ++s) columns.push_back(std::string(name(static_cast<Stage>(s))) + "_ms");
-  columns.insert(columns.end(), {"tracking_ms", "frame_ms"});
-  io::CsvWriter csv(path, columns);
-  const auto ms = [](double value) { return std::round(value * 1e3) / 1e3; };
-  for (const FrameRecord& f : outcome.frames) {
-    const auto& r = f.result;
-    csv.row(r.index, r.stamp, f.image, std::string(name(r.state)), std::string(name(r.reason)), f.points,
-            f.lines, f.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, r.loop_closed,
-            ms(f.points_ms), ms(f.lines_ms), ms(f.normals_ms), ms(f.extraction_ms), ms(f.stage_ms[0]),
-            ms(f.stage_ms[1]), ms(f.stage_ms[2]), ms(f.stage_ms[3]), ms(f.stage_ms[4]), ms(f.stage_ms[5]),
-            ms(f.stage_ms[6]), ms(f.tracking_ms), ms(f.frame_ms()));
-  }
-  static_assert(kStageCount == 7, "one cell for each stage");
+  io::CsvWriter csv(path, frame_columns());
+  for (const FrameRecord& frame : outcome.frames) csv.row(frame_cells(frame));
   csv.commit();
-}
-
-template <class Landmarks>
-std::size_t count_alive(const Landmarks& landmarks) {
-  return static_cast<std::size_t>(
-      std::count_if(landmarks.begin(), landmarks.end(), [](const auto& landmark) { return landmark.alive; }));
 }
 
 // The p-quantile by nearest rank; 0 of nothing.
@@ -96,28 +77,6 @@ std::size_t count_normals(const RunOutcome& outcome, NormalStatus status) {
   return static_cast<std::size_t>(
       std::count_if(outcome.frames.begin(), outcome.frames.end(),
                     [status](const FrameRecord& frame) { return frame.normal_status == status; }));
-}
-
-Json settings_json(const RunContext& context, const RunOutcome& outcome) {
-  const RunSettings& s = context.settings;
-  const Pinhole<double>& pinhole = context.camera.pinhole;
-  const RadTan<double>& lens = context.camera.distortion;
-  Json parameters;
-  for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
-  return {{"dataset", s.dataset},
-          {"camera", context.camera_source},
-          {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
-          {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
-          {"image_size", {context.camera.width, context.camera.height}},
-          {"seconds_per_stamp", context.dataset.seconds_per_stamp},
-          {"normals", s.normals},
-          {"preset", s.preset},
-          {"map", s.map},
-          {"start", s.slice.start},
-          {"end", s.slice.end},
-          {"stride", s.slice.stride},
-          {"seed", s.seed},
-          {"parameters", parameters}};
 }
 
 Json versions_json() {
@@ -174,6 +133,25 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
 
 }  // namespace
 
+nlohmann::ordered_json settings_json(const RunContext& context) {
+  const RunSettings& s = context.settings;
+  const Pinhole<double>& pinhole = context.camera.pinhole;
+  const RadTan<double>& lens = context.camera.distortion;
+  return {{"dataset", s.dataset},
+          {"camera", context.camera_source},
+          {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
+          {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
+          {"image_size", {context.camera.width, context.camera.height}},
+          {"seconds_per_stamp", context.dataset.seconds_per_stamp},
+          {"normals", s.normals},
+          {"preset", s.preset},
+          {"map", s.map},
+          {"start", s.slice.start},
+          {"end", s.slice.end},
+          {"stride", s.slice.stride},
+          {"seed", s.seed}};
+}
+
 void write_run(const RunContext& context, const RunOutcome& outcome) {
   const fs::path out = context.settings.out;
   io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
@@ -206,7 +184,10 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
   if (live) metrics["trajectory_live"] = evaluation_json(*live);
   metrics["warnings"] = outcome.warnings;
-  metrics["settings"] = settings_json(context, outcome);
+  Json settings = settings_json(context), parameters;
+  for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
+  settings["parameters"] = parameters;
+  metrics["settings"] = settings;
   metrics["versions"] = versions_json();
   write_json((out / "metrics.json").string(), metrics);
   write_top_view_file(out / "topview.svg", context, outcome, evaluation);

@@ -2,6 +2,7 @@
 // The files of a run: trajectories, map, per-frame table, metrics, top view.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cli/frame_record.hpp"
@@ -18,6 +19,9 @@ struct RunContext {
   std::string camera_source;
   Camera<double> camera;
 };
+
+// What was asked for, as metrics.json has it; the parameters come from the outcome.
+[[nodiscard]] nlohmann::ordered_json settings_json(const RunContext& context);
 
 // Writes all files into settings.out and prints the summary. Throws io::Error when a file cannot be written.
 void write_run(const RunContext& context, const RunOutcome& outcome);

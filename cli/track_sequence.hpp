@@ -11,6 +11,7 @@
 #include "cli/frame_stream.hpp"
 #include "cli/frame_view.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/map_figures.hpp"
 #include "cli/parameters.hpp"
 #include "cli/progress.hpp"
 #include "cli/track_settings.hpp"
@@ -56,14 +57,11 @@ template <class P>
 void collect_map(const P& pipeline, std::size_t known_keyframes, RunOutcome& outcome) {
   const auto& map = pipeline.map();
   outcome.map = map;
-  for (std::size_t k = known_keyframes; k < map.keyframes.size(); ++k)
-    if (const auto& keyframe = map.keyframes[k]; keyframe.alive())
-      outcome.keyframes.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
+  outcome.keyframes = keyframe_poses(map, known_keyframes);
   for (const auto& entry : pipeline.trajectory().entries())
     outcome.trajectory.push_back({entry.stamp, pipeline.trajectory().pose(map, entry).inverse()});
   const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };
   std::stable_sort(outcome.trajectory.begin(), outcome.trajectory.end(), earlier);
-  std::stable_sort(outcome.keyframes.begin(), outcome.keyframes.end(), earlier);
 }
 
 }  // namespace detail
@@ -105,7 +103,8 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
                               pipeline.map().world_from_manhattan};
     if (settings.view_stride > 0 && row % settings.view_stride == 0)
       outcome.views.push_back(encode_frame_view(view, pipeline.last_frame()));
-    if (settings.watcher) settings.watcher(record, view, pipeline.last_frame());
+    for (const FrameWatcher& watch : settings.watchers)
+      watch({record, view, pipeline.last_frame(), pipeline.map(), pipeline.trajectory()});
     progress.show(record);
     outcome.frames.push_back(std::move(record));
   }

@@ -41,7 +41,7 @@ void write_table(const fs::path& path, const ResultTable& table) {
       cells.push_back(number(cell.share));
       cells.push_back(cell.done > 0 ? std::to_string(cell.failed) : "");
     }
-    csv.cells(cells);
+    csv.row(cells);
   }
   csv.commit();
 }

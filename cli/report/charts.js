@@ -10,7 +10,7 @@ function tickStep(extent, wanted) {
 }
 
 class Chart {
-  // series: [{label, ink, values, unit}], all over the frames.
+  // series: [{label, ink, values, unit}]; values(): over the frames.
   constructor(title, series, options = {}) {
     this.series = series;
     this.whole = options.whole ?? 0;  // the axis reaches at least this far
@@ -39,7 +39,7 @@ class Chart {
   mark(row) {
     if (!this.width) return;
     this.cursor.style.left = `${this.x(row)}px`;
-    this.series.forEach((s, i) => { this.values[i].textContent = `${figure(s.values[row])}${s.unit ? ` ${s.unit}` : ""}`; });
+    this.series.forEach((s, i) => { this.values[i].textContent = `${figure(s.values()[row])}${s.unit ? ` ${s.unit}` : ""}`; });
   }
 
   draw() {
@@ -49,7 +49,7 @@ class Chart {
     this.width = width;
     let high = this.whole;
     for (const s of this.series)
-      for (const value of s.values) if (value > high) high = value;
+      for (const value of s.values()) if (value > high) high = value;
     high = high > 0 ? Math.max(this.whole, 1.04 * high) : 1;
     const y = (value) => height - kPlot.bottom - (height - kPlot.top - kPlot.bottom) * value / high;
     this.drawStates(context, height);
@@ -97,7 +97,7 @@ class Chart {
 
   // At most two strokes a pixel: the least and the greatest of the frames that share it.
   drawCurve(context, series, y) {
-    const { values } = series;
+    const values = series.values();
     const perStroke = Math.max(1, Math.ceil(values.length / (2 * this.width)));
     context.strokeStyle = colour(series.ink);
     context.lineWidth = 1.6;
@@ -125,11 +125,11 @@ class Chart {
 
 function showCharts() {
   const { frames } = run;
-  if (frames.count < 2) return;
-  const column = (name) => frames.all(name);
+  if (frames.count < 2 || byId("charts").childElementCount > 0) return;
+  const column = (name) => () => run.frames.all(name);
   if (run.errors) {
-    new Chart("Position error", [{ label: "after alignment", ink: "accent", values: run.errors.position_m, unit: "m" }]);
-    new Chart("Rotation error", [{ label: "after a constant offset", ink: "accent", values: run.errors.rotation_deg, unit: "°" }]);
+    new Chart("Position error", [{ label: "after alignment", ink: "accent", values: () => run.errors.position_m, unit: "m" }]);
+    new Chart("Rotation error", [{ label: "after a constant offset", ink: "accent", values: () => run.errors.rotation_deg, unit: "°" }]);
   }
   if (frames.has("point_inliers"))
     new Chart("Map seen again", [{ label: "points", ink: "accent", values: column("point_inliers") }, { label: "lines", ink: "x", values: column("line_inliers") }]);

@@ -44,8 +44,7 @@ function numbersOr(otherwise, values, count) {
   return good ? values : otherwise;
 }
 
-function readRun() {
-  const raw = JSON.parse(document.getElementById("data").textContent);
+function makeRun(raw) {
   const metrics = raw.metrics;  // as it was written: it may have a member called base64
   delete raw.metrics;
   const data = unpack(raw);
@@ -54,6 +53,7 @@ function readRun() {
   const secondsPerStamp = Number(settings.seconds_per_stamp) || 1;
   const stamps = frames.all("stamp");
   return {
+    kind: "run",  // "live": one that goes on; "map": the map alone
     ...data,
     metrics,
     settings,
@@ -64,10 +64,11 @@ function readRun() {
     unit: data.metres_per_unit ? "m" : "map units",
     secondsOfStamp: (stamp) => (stamp - (stamps[0] ?? 0)) * secondsPerStamp,
     seconds: (row) => (stamps[row] - (stamps[0] ?? 0)) * secondsPerStamp,
+    trajectoryThere: data.poses.some((value) => !Number.isNaN(value)),
     hasPose: (row) => !Number.isNaN(data.poses[7 * row]),
     state: (row) => frames.text("state", row),
     reason: (row) => frames.text("reason", row),
   };
 }
 
-const run = readRun();
+const run = makeRun(JSON.parse(document.getElementById("data").textContent));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts the page together: title, view, layers, timeline, keys, theme.
 
-run.trajectoryThere = run.poses.some((value) => !Number.isNaN(value));
-
 function toggleButton(label, set, inkName) {
   const button = element("button", { type: "button", "aria-pressed": "true" });
   if (inkName !== undefined) {
@@ -25,20 +23,23 @@ function setTheme(name) {
   redrawAll();
 }
 
+const kKinds = { run: "run report", live: "run in progress", map: "map" };
+
 function showTitle() {
   const dataset = String(run.settings.dataset ?? run.folder);
   const name = dataset.split("/").filter(Boolean).pop() ?? dataset;
   byId("title").textContent = name;
-  document.title = `${name} · sslam report`;
+  document.title = `${name} · sslam ${kKinds[run.kind]}`;
+  byId("kind").textContent = kKinds[run.kind];
   const parts = [run.settings.preset && `preset ${run.settings.preset}`, run.settings.normals && `normals ${run.settings.normals}`,
-    run.settings.seed !== undefined && `seed ${run.settings.seed}`, `in ${run.folder}`, run.program];
+    run.settings.seed !== undefined && `seed ${run.settings.seed}`, run.folder !== name && `in ${run.folder}`, run.program];
   byId("subtitle").textContent = parts.filter(Boolean).join(" · ");
 }
 
 // The 3D view where the browser can, else the map from above.
 function makeView() {
   const canvas = byId("canvas");
-  if (run.points.length + run.lines.axes.length === 0 && !run.trajectoryThere) notice("No map and no path to see: the list below says why.");
+  if (run.kind !== "live" && run.points.length + run.lines.axes.length === 0 && !run.trajectoryThere) notice("No map and no path to see: the list below says why.");
   const webgl = webglContext(canvas);
   if (webgl) return new Scene3D(canvas, webgl);
   byId("view").classList.add("flat");
@@ -55,7 +56,7 @@ function notice(text) {
 }
 
 function showLayers(view) {
-  const buttons = kLayers.filter((layer) => layer.there()).map((layer) => {
+  const buttons = kLayers.map((layer) => {
     const button = toggleButton(layer.label, (on) => view.setLayer(layer.name, on), layer.ink);
     button.dataset.layer = layer.name;
     return button;
@@ -66,7 +67,6 @@ function showLayers(view) {
   follow.id = "follow";
   follow.classList.add("mode");
   follow.setAttribute("aria-pressed", "false");
-  follow.hidden = !run.trajectoryThere;
   byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.viewpoint.reset() }, "Reset"));
 }
 
@@ -125,7 +125,7 @@ const kKeys = [
   { keys: ["f", "F"], name: "F", does: "follow the camera", act: () => byId("follow")?.click() },
   { keys: ["r", "R"], name: "R", does: "reset the view", act: () => byId("reset")?.click() },
   { keys: ["t", "T"], name: "T", does: "light or dark", act: () => byId("theme").click() },
-  { keys: ["1", "2", "3", "4", "5", "6"], name: "1 to 6", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]")[Number(event.key) - 1]?.click() },
+  { keys: ["1", "2", "3", "4", "5", "6"], name: "1 to 6", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]:not([hidden])")[Number(event.key) - 1]?.click() },
 ];
 
 function listenToKeys() {
@@ -151,14 +151,28 @@ function part(name, make) {
   }
 }
 
-function main() {
-  setTheme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-  byId("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-  part("title", showTitle);
+// What changes while a run goes on.
+function showFigures() {
+  for (const id of ["summary", "story", "timings"]) byId(id).replaceChildren();
   part("summary", showSummary);
   part("story", showStory);
   part("curves", showCharts);
   part("times of the stages", showTimings);
+}
+
+// Buttons for what is not there, or not yet; folds with nothing in them.
+function hideMissing() {
+  for (const layer of kLayers) document.querySelector(`#layers [data-layer=${layer.name}]`).hidden = !layer.there();
+  if (byId("follow")) byId("follow").hidden = !run.trajectoryThere;
+  document.querySelectorAll("details").forEach((details) => { details.hidden = details.querySelector("pre, div").textContent === ""; });
+}
+
+function main() {
+  document.documentElement.dataset.kind = run.kind;
+  setTheme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  byId("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+  showFigures();
+  part("title", showTitle);
   part("settings", showSettings);
   byId("slider").max = Math.max(run.frames.count - 1, 0);
   byId("slider").addEventListener("input", (event) => shown.set(Number(event.target.value)));
@@ -168,14 +182,15 @@ function main() {
   const view = makeView();
   showLayers(view);
   listenToKeys();
-  document.querySelectorAll("details").forEach((details) => { details.hidden = details.querySelector("pre, div").textContent === ""; });
+  hideMissing();
   window.addEventListener("resize", redrawAll);
   document.addEventListener("DOMContentLoaded", () => {
     part("pictures", () => { window.views = new Views(); });
     redrawAll();
     document.documentElement.dataset.ready = "yes";
+    if (run.kind === "live") followRun();
   });
-  shown.set(0);
+  shown.set(run.kind === "live" ? run.frames.count - 1 : 0);
   redrawAll();
   window.view3d = view;
 }

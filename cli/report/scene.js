@@ -1,19 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The 3D view: map, paths and cameras, drawn only when something has changed.
 
-// A context that a software renderer can serve too; null without WebGL.
-function webglContext(canvas) {
-  if (typeof THREE === "undefined") return null;
-  const probe = document.createElement("canvas").getContext("webgl2");
-  if (!probe) return null;
-  const info = probe.getExtension("WEBGL_debug_renderer_info");
-  const name = info ? String(probe.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-  const software = /swiftshader|llvmpipe|software|basic render/i.test(name);
-  probe.getExtension("WEBGL_lose_context")?.loseContext();
-  const context = canvas.getContext("webgl2", { antialias: !software, alpha: false, powerPreference: "high-performance" });
-  return context && { context, software };
-}
-
 const kPointsInMotion = 10000;
 
 class Scene3D {
@@ -28,6 +15,8 @@ class Scene3D {
     this.world.scale.setScalar(run.scale);
     this.scene.add(this.world);
     this.layers = {};
+    this.materials = {};  // by layer: they outlive what they are on
+    this.hidden = new Set();
     this.measure();
     this.viewpoint = new Viewpoint(canvas, this.world, this.middle, this.radius, () => this.request());
     this.build();
@@ -50,39 +39,20 @@ class Scene3D {
   add(name, object) {
     this.layers[name] = object;
     object.frustumCulled = false;
+    object.visible = !this.hidden.has(name);
     this.world.add(object);
     return object;
   }
 
-  static geometry(positions) {
-    return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  }
-
-  // The same points in an order whose beginning is spread over all of them.
-  static mixed(positions) {
-    const count = positions.length / 3;
-    const step = [7919, 7907].find((prime) => count % prime !== 0) ?? 1;
-    const result = new Float32Array(positions.length);
-    for (let i = 0; i < count; ++i) {
-      const from = 3 * ((i * step) % count);
-      result.set(positions.subarray(from, from + 3), 3 * i);
-    }
-    return result;
-  }
-
-  // A path as the segments between its points.
-  static joined(positions) {
-    const ends = [];
-    for (let i = 3; i < positions.length; i += 3) ends.push(...positions.subarray(i - 3, i + 3));
-    return new Float32Array(ends);
-  }
+  material(name, make) { return (this.materials[name] ??= make()); }
 
   // Segments `width` pixels wide, which plain lines of WebGL cannot be; coloured: each in a colour of its own.
   addWide(name, ends, width, coloured) {
     if (ends.length === 0) return;
     const geometry = new THREE.LineSegmentsGeometry().setPositions(ends);
     if (coloured) geometry.setColors(new Float32Array(ends.length));
-    this.add(name, new THREE.LineSegments2(geometry, new THREE.LineMaterial({ linewidth: width, vertexColors: coloured })));
+    const material = this.material(name, () => new THREE.LineMaterial({ linewidth: width, vertexColors: coloured }));
+    this.add(name, new THREE.LineSegments2(geometry, material));
   }
 
   // colourOf(i): of the i-th segment.
@@ -97,9 +67,11 @@ class Scene3D {
   }
 
   build() {
-    const plain = () => new THREE.LineBasicMaterial();
-    this.add("grid", new THREE.LineSegments(Scene3D.geometry(this.gridEnds()), plain()));
-    this.add("points", new THREE.Points(Scene3D.geometry(Scene3D.mixed(run.points)), new THREE.PointsMaterial({ size: 2, sizeAttenuation: false })));
+    const addPlain = (name, ends) => this.add(name,
+      new THREE.LineSegments(geometryOf(new Float32Array(ends)), this.material(name, () => new THREE.LineBasicMaterial())));
+    addPlain("grid", this.gridEnds());
+    const dots = this.material("points", () => new THREE.PointsMaterial({ size: 2, sizeAttenuation: false }));
+    this.add("points", new THREE.Points(geometryOf(mixedPoints(run.points)), dots));
     this.addWide("lines", run.lines.ends, 2, true);
     this.pathRows = [];  // the later frame of each step of the path
     const steps = [];
@@ -109,22 +81,25 @@ class Scene3D {
       for (const r of [row - 1, row]) steps.push(...run.poses.subarray(7 * r, 7 * r + 3));
     }
     this.addWide("path", new Float32Array(steps), 3, true);
-    if (run.truth) this.addWide("truth", Scene3D.joined(run.truth.positions), 1.5, false);
+    if (run.truth) this.addWide("truth", joinedPoints(run.truth.positions), 1.5, false);
     const size = 0.05 * this.radius / run.scale;
     const small = [];
-    for (let i = 0; i < run.keyframes.length; i += 7) small.push(...this.frustum(run.keyframes.subarray(i, i + 7), 0.6 * size));
-    this.add("keyframes", new THREE.LineSegments(Scene3D.geometry(new Float32Array(small)), plain()));
-    this.eye = this.add("eye", new THREE.LineSegments(Scene3D.geometry(new Float32Array(this.frustum([0, 0, 0, 0, 0, 0, 1], 1.6 * size))), plain()));
+    for (let i = 0; i < run.keyframes.length; i += 7) small.push(...frustumEnds(run.keyframes.subarray(i, i + 7), 0.6 * size));
+    addPlain("keyframes", small);
+    this.eye = addPlain("eye", frustumEnds([0, 0, 0, 0, 0, 0, 1], 1.6 * size));
   }
 
-  // A camera as 8 segments, `size` deep.
-  frustum([x, y, z, qx, qy, qz, qw], size) {
-    const [fx, fy] = run.pinhole, [width, height] = run.imageSize;
-    const w = Math.min(Math.max(width / 2 / fx, 0.2), 2), h = Math.min(Math.max(height / 2 / fy, 0.2), 2);
-    const turn = new THREE.Quaternion(qx, qy, qz, qw);
-    const corner = (u, v) => new THREE.Vector3(u * w, v * h, 1).multiplyScalar(size).applyQuaternion(turn).add(new THREE.Vector3(x, y, z)).toArray();
-    const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
-    return corners.flatMap((c, i) => [x, y, z, ...c, ...c, ...corners[(i + 1) % 4]]);
+  // The run has grown.
+  renew() {
+    const old = Object.values(this.layers);
+    this.layers = {};
+    this.measure();
+    this.build();
+    for (const object of old) {
+      this.world.remove(object);
+      object.geometry.dispose();
+    }
+    this.viewpoint.grow(this.middle, this.radius);
   }
 
   // Squares of 1 m (or of a power of ten that suits the map) at the height of the lowest points.
@@ -137,7 +112,7 @@ class Scene3D {
     const ends = [];
     for (let x = left; x <= right + step / 2; x += step) ends.push(x, this.floor, near, x, this.floor, far);
     for (let z = near; z <= far + step / 2; z += step) ends.push(left, this.floor, z, right, this.floor, z);
-    return new Float32Array(ends);
+    return ends;
   }
 
   restyle() {
@@ -153,6 +128,8 @@ class Scene3D {
   }
 
   setLayer(name, on) {
+    if (on) this.hidden.delete(name);
+    else this.hidden.add(name);
     if (this.layers[name]) this.layers[name].visible = on;
     this.request();
   }

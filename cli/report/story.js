@@ -43,7 +43,7 @@ function spanStory(span, first) {
   const length = span.to - span.from + 1;
   const next = span.to + 1 < run.frames.count ? run.state(span.to + 1) : "";
   if (span.key === "lost") {
-    let after = "; not found again before the end";
+    let after = run.kind === "live" ? "; not found again yet" : "; not found again before the end";
     if (next === "initialising") after = "; the map was given up and a new one begun";
     else if (next) after = `; found again at frame ${run.frames.text("index", span.to + 1)}`;
     return { state: "lost", text: `Lost for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}${after}.`, row: span.from, length };
@@ -80,11 +80,11 @@ function tellStory() {
   const items = [];
   const { metrics, frames } = run;
   for (const problem of run.problems) items.push({ state: "lost", text: problem });
-  if (frames.count > 0 && metrics.tracked === 0) {
+  if (frames.count > 0 && metrics.tracked === 0 && run.kind !== "live") {
     const all = { from: 0, to: frames.count - 1 };
     items.push({ state: "lost", text: `No frame was tracked${because(all)}.` });
   }
-  if (frames.count === 0) items.push({ state: "lost", text: "frames.csv holds no frame: nothing is shown over time." });
+  if (frames.count === 0 && run.kind === "run") items.push({ state: "lost", text: "frames.csv holds no frame: nothing is shown over time." });
   if (metrics.interrupted) items.push({ state: "lost", text: `The run was interrupted after ${countOf(frames.count, "frame")}.` });
   if (frames.has("state")) {
     // A frame that is found again says so where the loss is told.
@@ -111,6 +111,7 @@ function tellStory() {
 function headline() {
   const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.state(row)).filter((s) => s === state).length;
   const lost = rows("lost"), fallback = rows("fallback");
+  if (run.kind === "live") return `The run goes on: ${run.frames.count} of ${countOf(run.total, "frame")} so far.`;
   if (run.frames.count === 0) return "";
   if (run.metrics.tracked === 0) return "No frame was tracked: below stands why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];

@@ -9,6 +9,8 @@ class TopView {
     shown.listen(() => this.draw());
   }
 
+  renew() { this.draw(); }
+
   setLayer(name, on) {
     if (on) this.layers.add(name);
     else this.layers.delete(name);
@@ -118,13 +120,14 @@ function forwardOf([, , , x, y, z, w]) {
   return [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
 }
 
-// Low and high corner of what is worth looking at: all poses, and points between the 2nd and the 98th percentile.
+// Low and high corner of what is worth looking at: all poses and keyframes, and points between the 2nd and the 98th percentile.
 function boxOfRun() {
   const box = { low: [0, 0, 0], high: [0, 0, 0] };
   for (let axis = 0; axis < 3; ++axis) {
     const poses = [];
-    for (let i = axis; i < run.poses.length; i += 7)
-      if (!Number.isNaN(run.poses[i])) poses.push(run.poses[i]);
+    for (const list of [run.poses, run.keyframes])
+      for (let i = axis; i < list.length; i += 7)
+        if (!Number.isNaN(list[i])) poses.push(list[i]);
     const points = [];
     const step = 3 * Math.max(1, Math.floor(run.points.length / 3 / 20000));
     for (let i = axis; i < run.points.length; i += step) points.push(run.points[i]);

@@ -9,8 +9,19 @@ class Viewpoint {
     this.camera = new THREE.PerspectiveCamera(50, 1, radius / 500, 60 * radius);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("start", () => { this.moved = true; });
     canvas.addEventListener("keydown", (event) => this.key(event));
     this.home();
+  }
+
+  // There is more to be seen. Whoever has not moved goes on seeing all of it.
+  grow(middle, radius) {
+    const near = Math.abs(radius / this.radius - 1) < 0.05 && middle.distanceTo(this.middle) < 0.05 * radius;
+    if (near) return;
+    Object.assign(this, { middle, radius });
+    Object.assign(this.camera, { near: radius / 500, far: 60 * radius });
+    this.camera.updateProjectionMatrix();
+    if (!this.moved && !this.follows) this.home();
   }
 
   setFollow(on) {
@@ -60,6 +71,7 @@ class Viewpoint {
   }
 
   home() {
+    this.moved = false;
     const reach = 1.9 * this.radius * Math.max(1, 0.85 / this.camera.aspect);
     this.controls.target.copy(this.middle);
     this.camera.position.copy(this.middle).add(new THREE.Vector3(-0.35, 0.75, 0.62).multiplyScalar(reach));
@@ -88,6 +100,7 @@ class Viewpoint {
     const turns = { ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.08, 1], ArrowDown: [0, -0.08, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1.1] };
     const turn = turns[event.key];
     if (!turn || event.ctrlKey || event.metaKey) return;
+    this.moved = true;
     this.orbit(...turn);
     event.preventDefault();
     event.stopPropagation();

@@ -29,11 +29,15 @@ function decodeView(base64) {
   return view;
 }
 
+function rowOfView(base64) { return new DataView(bytesOf(base64.slice(0, 8)).buffer).getUint32(0, true); }
+
+const kMostViews = 1000;  // that the page of a live run keeps
+
 class Views {
   constructor() {
     this.texts = byId("views").textContent.split("\n").filter((line) => line.length > 0);
-    this.rows = this.texts.map((text) => new DataView(bytesOf(text.slice(0, 8)).buffer).getUint32(0, true));
-    if (this.texts.length === 0) {
+    this.rows = this.texts.map(rowOfView);
+    if (this.texts.length === 0 && run.kind !== "live") {
       byId("pictures").append(element("p", { className: "quiet" }, "This run kept no pictures (--no-report, or views.bin is missing)."));
       return;
     }
@@ -58,8 +62,19 @@ class Views {
     this.pick(shown.row);
   }
 
+  // Of a run that goes on. When there are too many, every other one goes.
+  add(text) {
+    if (this.texts.length >= kMostViews) {
+      this.texts = this.texts.filter((_, i) => i % 2 === 0);
+      this.shownView = -1;
+    }
+    this.texts.push(text);
+    this.rows = this.texts.length === this.rows.length + 1 ? [...this.rows, rowOfView(text)] : this.texts.map(rowOfView);
+  }
+
   // The kept view nearest to the row.
   pick(row) {
+    if (this.texts.length === 0) return;
     let best = 0;
     for (let i = 1; i < this.rows.length; ++i)
       if (Math.abs(this.rows[i] - row) < Math.abs(this.rows[best] - row)) best = i;

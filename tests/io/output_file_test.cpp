@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/io/output_file.hpp"
 
+#include <string>
+#include <vector>
+
 #include "errors.hpp"
 #include "sslam/io/csv_writer.hpp"
 #include "support/scratch_folder.hpp"
@@ -68,7 +71,9 @@ TEST_CASE("Rows of a table are written as readers split them") {
   io::CsvWriter csv(path, {"index", "state", "seconds", "ok"});
   csv.row(3, "lost, \"again\"", 0.125, true);
   csv.row(std::size_t{4}, std::string("tracking"), 1e-7, false);
+  csv.row(std::vector<std::string>{"5", "a, b", "2", "1"});
   csv.commit();
-  CHECK(testing::text_of(path) ==
-        "index,state,seconds,ok\n3,\"lost, \"\"again\"\"\",0.125,1\n4,tracking,0.0000001,0\n");
+  CHECK(
+      testing::text_of(path) ==
+      "index,state,seconds,ok\n3,\"lost, \"\"again\"\"\",0.125,1\n4,tracking,0.0000001,0\n5,\"a, b\",2,1\n");
 }

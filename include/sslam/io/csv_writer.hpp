@@ -27,9 +27,8 @@ class CsvWriter {
     end_row();
   }
 
-  // A row whose length is known at run time only.
-  void cells(const std::vector<std::string>& texts) {
-    for (const std::string& text : texts) write_cell(text);
+  void row(const std::vector<std::string>& cells) {
+    for (const std::string& cell : cells) write_cell(cell);
     end_row();
   }
 

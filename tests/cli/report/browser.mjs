@@ -52,6 +52,7 @@ export class Browser {
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
     const page = new Page(this, sessionId, targetId);
+    page.folder = url;
     await page.send("Page.enable");
     await page.send("Runtime.enable");
     await page.send("Log.enable");
@@ -76,7 +77,8 @@ class Page {
     this.browser = browser;
     this.session = session;
     this.target = target;
-    this.complaints = [];  // console errors, exceptions, requests for anything but the page itself
+    this.complaints = [];  // console errors, exceptions, requests for anything but the page itself and what lies beside it
+    this.folder = "file:";
     browser.listeners.push((message) => {
       if (message.sessionId === session) this.hear(message.method, message.params);
     });
@@ -87,7 +89,7 @@ class Page {
     if (method === "Runtime.exceptionThrown") this.complaints.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
     if (method === "Runtime.consoleAPICalled" && ["error", "warning"].includes(params.type)) this.complaints.push(params.args.map((a) => a.value).join(" "));
     if (method === "Log.entryAdded" && params.entry.level === "error") this.complaints.push(params.entry.text);
-    if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url)) this.complaints.push(`asks for ${params.request.url}`);
+    if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url) && !params.request.url.startsWith(this.folder)) this.complaints.push(`asks for ${params.request.url}`);
   }
 
   send(method, params) { return this.browser.send(method, params, this.session); }

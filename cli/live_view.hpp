@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam run --view`: the report's page while the run goes on, then the report.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/live_run.hpp"
+#include "cli/run_report.hpp"
+#include "cli/view_server.hpp"
+
+namespace sslam::cli {
+
+class LiveView {
+ public:
+  // Says where to look. Throws io::Error when the port cannot be had.
+  explicit LiveView(const RunContext& context);
+
+  void add(const WatchedFrame& seen) { run_.add(seen); }
+
+  // Of the run's files, until Ctrl-C.
+  void show_report();
+
+ private:
+  std::filesystem::path folder_;
+  LiveRun run_;
+  ViewServer server_;
+};
+
+}  // namespace sslam::cli

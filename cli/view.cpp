@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam view RUN|MAP`: the report of a run, or a map, for a browser on this machine.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/map_figures.hpp"
+#include "cli/messages.hpp"
+#include "cli/report.hpp"
+#include "cli/report_data.hpp"
+#include "cli/run_folder.hpp"
+#include "cli/view_options.hpp"
+#include "cli/view_server.hpp"
+#include "sslam/io/map_file.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string run_page(const fs::path& folder) {
+  RunFolder run = read_run_folder(folder);
+  const nlohmann::ordered_json data = report_data(run);
+  print_warnings(run.problems);
+  return report_html(data, run.views);
+}
+
+// The page of a run of which there is the map alone.
+std::string map_page(const fs::path& file) {
+  RunFolder run;
+  run.name = file.filename().string();
+  run.map = io::load_map(file);
+  run.keyframes = keyframe_poses(run.map);
+  run.metrics = {{"keyframes", run.keyframes.size()},
+                 {"points", count_alive(run.map.points)},
+                 {"lines", count_alive(run.map.lines)}};
+  nlohmann::ordered_json data = report_data(run);
+  data["kind"] = "map";
+  return report_html(data, {});
+}
+
+SharedText page_of(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw io::Error(path.string() + ": no such file or folder; wants the folder of a run or a map.sslam");
+  return std::make_shared<const std::string>(fs::is_directory(path, ignored) ? run_page(path)
+                                                                             : map_page(path));
+}
+
+void view(const std::string& path, int port) {
+  const SharedText page = page_of(path);
+  const ViewServer server(port, {[page] { return page; }, {}});
+  const Interrupt interrupt;
+  std::printf("look at          %s until Ctrl-C\n", server.address().c_str());
+  std::fflush(stdout);
+  wait_for(interrupt);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "view",
+      "Show a run or a map in a browser on this machine; `sslam run --view` shows a run while it goes on");
+  struct Settings {
+    std::string path;
+    int port = 0;
+  };
+  auto s = std::make_shared<Settings>();
+  command->add_option("path", s->path, "Folder that `sslam run --out` has written to, or a map (map.sslam)")
+      ->required();
+  add_port_option(*command, s->port);
+  command->callback([s] { view(s->path, s->port); });
+}
+
+}  // namespace sslam::cli
