@@ -18,7 +18,7 @@ class CsvWriter {
  public:
   // Throws Error when the place cannot be written to.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns) : file_(path) {
-    cells(columns);
+    row(columns);
   }
 
   template <class... Cells>

@@ -36,7 +36,11 @@ class LoopDetection {
   int min_depths = 10;          // of them
   S max_scale_drift = S(2);     // factor
 
-  LoopDetection() { refinement.acceptance.min_inliers = 25; }
+  LoopDetection() {
+    places.most = 2;
+    places.min_votes = 20;
+    refinement.acceptance.min_inliers = 25;
+  }
 
   [[nodiscard]] std::optional<Loop<S>> find(Map<S>& map, KeyframeId id) {
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
@@ -44,12 +48,20 @@ class LoopDetection {
     for (const Neighbour& n : keyframe.neighbours) connected_.push_back(n.keyframe);
     candidates_.clear();
     if (places.most > 0) places.rank(map, keyframe.frame, candidates_, connected_);
-    for (const KeyframeId candidate : candidates_)
-      if (auto loop = verify(map, keyframe, candidate)) return loop;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      // Next to a keyframe that was tried in vain is the same place.
+      if (i > 0 && covisible(map.keyframes[map.index(candidates_[0])], candidates_[i])) continue;
+      if (auto loop = verify(map, keyframe, candidates_[i])) return loop;
+    }
     return std::nullopt;
   }
 
  private:
+  [[nodiscard]] static bool covisible(const Keyframe<S>& keyframe, KeyframeId other) {
+    return std::any_of(keyframe.neighbours.begin(), keyframe.neighbours.end(),
+                       [&](const Neighbour& n) { return n.keyframe == other; });
+  }
+
   [[nodiscard]] std::optional<Loop<S>> verify(Map<S>& map, const Keyframe<S>& keyframe, KeyframeId place) {
     view_.frame = keyframe.frame;
     view_.grid.build(view_.frame.points, view_.frame.width, view_.frame.height);

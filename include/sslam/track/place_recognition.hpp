@@ -17,7 +17,7 @@ template <Scalar S>
 class PlaceRecognition {
  public:
   int most = 3;           // keyframes to compare a frame with
-  int max_distance = 60;  // bits between a landmark's descriptor and that of its feature
+  int max_distance = 50;  // bits between a landmark's descriptor and that of its feature
   S max_ratio = S(0.8);   // to the next best feature: landmarks that look like several do not vote
   int min_votes = 8;      // landmarks that a keyframe must share with the frame
 
@@ -53,17 +53,13 @@ class PlaceRecognition {
     }
   }
 
-  // The buckets find what may be the best feature; all of them decide whether it is the only one.
+  // Among those that the buckets name, which leave out few that are close.
   template <class Features>
   [[nodiscard]] bool looks_like_one(const Descriptor& descriptor, const Features& features) const {
-    bool close = false;
-    buckets_.near(descriptor, [&](std::int32_t f) {
-      close = close || hamming(descriptor, features[Map<S>::index(f)].descriptor) <= max_distance;
-    });
-    if (!close) return false;
     BestTwo two;
-    for (std::size_t i = 0; i < features.size(); ++i)
-      two.offer(hamming(descriptor, features[i].descriptor), static_cast<std::int32_t>(i));
+    buckets_.near(descriptor, [&](std::int32_t f) {
+      two.offer(hamming(descriptor, features[Map<S>::index(f)].descriptor), f);
+    });
     return two.accepted(max_distance, max_ratio);
   }
 
