@@ -14,9 +14,9 @@ namespace sslam {
 
 template <Scalar S>
 struct BundleWindowOptions {
-  std::size_t max_free = 7;     // keyframes that move: the newest and its closest neighbours
-  std::size_t max_held = 15;    // keyframes around them that see the same landmarks and stay where they are
-  bool manhattan = true;        // tie keyframe rotations and line directions to the Manhattan axes
+  std::size_t max_free = 7;   // keyframes that move: the newest and its closest neighbours
+  std::size_t max_held = 15;  // keyframes around them that see the same landmarks and stay where they are
+  bool manhattan = true;      // tie keyframe rotations and line directions to the Manhattan axes
   S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
 };
 

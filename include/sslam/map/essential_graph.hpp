@@ -35,7 +35,8 @@ struct EssentialGraphOptions {
   std::int32_t min_shared =
       30;  // landmarks that make an edge; each keyframe also has one to its best older neighbour
   EdgeSigmas<S> sigmas;
-  S loop_certainty = 10;  // of the motion across a loop, over that of an edge: each keyframe has edges to many others
+  S loop_certainty =
+      10;  // of the motion across a loop, over that of an edge: each keyframe has edges to many others
 };
 
 template <Scalar S>
