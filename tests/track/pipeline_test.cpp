@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation.hpp"
+#include "sslam/map/map_deformation.hpp"
 #include "support/catch.hpp"
 
 namespace {
@@ -162,6 +163,22 @@ TEST_CASE("Wherever a later run starts in a map its first frame is recognised") 
     second.resume(first.map());
     Frame<double> frame = simulation.frame(start);
     REQUIRE(second.track(frame).reason == Reason::kRelocalised);
+  }
+}
+
+TEST_CASE("A place that stands askew to the Manhattan frame is not taken for the one that was lost") {
+  Simulation simulation(walk(100));
+  presets::Structure<double> first;
+  track_all(first, simulation);
+  for (const double turn : {0.0, 10.0}) {
+    Map<double> map = first.map();
+    const SO3<double> turned = SO3<double>::exp(Vec3<double>(0, radians(turn), 0));
+    std::vector<Sim3<double>> moves(map.keyframes.size(), Sim3<double>{turned, Vec3<double>::Zero(), 1});
+    deform<double>(map, moves);  // and the Manhattan frame stays
+    presets::Structure<double> second;
+    second.resume(map);
+    Frame<double> frame = simulation.frame(60);
+    REQUIRE(second.track(frame).state == (turn == 0 ? State::kFallback : State::kLost));
   }
 }
 

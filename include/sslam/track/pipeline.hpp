@@ -198,12 +198,20 @@ class Pipeline {
       current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
       estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
       if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
+      if (estimate.ok() && !stands_square(result)) estimate.reason = Reason::kNoConsensus;
       if (estimate.ok()) cursor_.refer_to(candidate);
     }
     timer.end(Stage::kFallback);
-    // Only now is it known near which rotation the axes are to be looked for.
-    if (estimate.ok()) rotate(current_->cam_from_world.rotation, result);
     return estimate;
+  }
+
+  // Whether the pose that a lost frame was given agrees with the Manhattan frame, where that is seen: a place
+  // that only looks the same is rarely seen from a direction that fits.
+  bool stands_square(TrackResult<S>& result) {
+    timer.end(Stage::kFallback);
+    const SO3<S>& found = current_->cam_from_world.rotation;
+    const RotationAnswer<S> answer = rotate(found, result);
+    return !answer.trusted || angle_between(current_->manhattan->cam_from_world, found) < loss.max_turn;
   }
 
   void lose(TrackResult<S>& result, Reason reason) {

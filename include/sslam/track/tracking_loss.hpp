@@ -10,9 +10,10 @@ namespace sslam {
 template <Scalar S>
 class TrackingLoss {
  public:
-  int young_map = 5;          // keyframes: a map lost while it has fewer is given up and started anew
-  int give_up_after = 15;     // lost frames with enough features until that happens
-  int telling_features = 50;  // points plus lines that make a frame speak for or against the map
+  int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
+  int give_up_after = 15;      // lost frames with enough features until that happens
+  int telling_features = 50;   // points plus lines that make a frame speak for or against the map
+  S max_turn = radians(S(5));  // between the rotation of a pose found again and what the Manhattan frame says
 
   [[nodiscard]] bool lasts() const noexcept { return frames_ > 0; }
 
