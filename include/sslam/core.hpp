@@ -5,6 +5,7 @@
 
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/inline_vector.hpp"
+#include "sslam/core/median.hpp"
 #include "sslam/core/random.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/types.hpp"
@@ -108,6 +109,7 @@
 #include "sslam/track/pose_estimate.hpp"
 #include "sslam/track/presets.hpp"
 #include "sslam/track/refinement.hpp"
+#include "sslam/track/relocalisation.hpp"
 #include "sslam/track/result.hpp"
 #include "sslam/track/rotation.hpp"
 #include "sslam/track/stage_timer.hpp"

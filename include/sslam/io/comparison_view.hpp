@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/median.hpp"
 #include "sslam/geometry/sim3.hpp"
 #include "sslam/io/svg_plot.hpp"
 #include "sslam/io/trajectory.hpp"
@@ -31,9 +32,7 @@ namespace sslam::io {
   std::vector<double> steps;
   for (std::size_t i = 1; i < trajectory.size(); ++i)
     steps.push_back(trajectory[i].stamp - trajectory[i - 1].stamp);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return kFactor * *middle;
+  return kFactor * median<double>(steps);
 }
 
 // The estimate, aligned, over that part of the ground truth that was recorded from `from` to `to` (stamps).

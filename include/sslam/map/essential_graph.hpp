@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "sslam/core/median.hpp"
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/solver/pose_graph.hpp"
@@ -49,12 +50,14 @@ class EssentialGraph {
   // Rotations that keyframes know from the Manhattan frame are tied to it. The first keyframe is held.
   void gather(const Map<S>& map, const BundleWindowOptions<S>& window) {
     keyframes.clear();
+    depths_.clear();
     graph.clear();
     node_of_.assign(map.keyframes.size(), kNone);
     for (const Keyframe<S>& kf : map.keyframes) {
       if (!kf.alive()) continue;
       node_of_[map.index(kf.id)] = static_cast<std::int32_t>(keyframes.size());
       keyframes.push_back(kf.id);
+      depths_.push_back(depth(map, kf));
       PoseGraphNode<S> node;
       node.cam_from_world = similarity(kf.cam_from_world);
       node.held = keyframes.size() == 1;
@@ -67,7 +70,7 @@ class EssentialGraph {
   // The motion across a loop, by `shared` landmarks.
   void add_loop(const Map<S>& map, KeyframeId from, KeyframeId to, const Sim3<S>& to_from,
                 std::int32_t shared) {
-    add_edge(map, from, map.keyframes[map.index(to)], to_from, shared);
+    add_edge(node_of_[map.index(from)], node_of_[map.index(to)], to_from, shared);
     graph.edges.back().inverse_sigma *= options.loop_certainty;
   }
 
@@ -78,38 +81,34 @@ class EssentialGraph {
   // before.
   void add_edges(const Map<S>& map, std::size_t node) {
     const Keyframe<S>& kf = map.keyframes[map.index(keyframes[node])];
+    const auto add = [&](KeyframeId from, std::int32_t shared) {
+      const SE3<S> to_from = kf.cam_from_world * map.keyframes[map.index(from)].cam_from_world.inverse();
+      add_edge(node_of_[map.index(from)], static_cast<std::int32_t>(node), similarity(to_from), shared);
+    };
     bool hangs = false;
     for (const Neighbour& n : kf.neighbours) {  // most shared first
       if (n.keyframe > kf.id || (hangs && n.shared < options.min_shared)) continue;
-      add_edge(map, n.keyframe, kf, n.shared);
+      add(n.keyframe, n.shared);
       hangs = true;
     }
-    if (!hangs) add_edge(map, keyframes[node - 1], kf, 1);
+    if (!hangs) add(keyframes[node - 1], 1);
   }
 
-  void add_edge(const Map<S>& map, KeyframeId from, const Keyframe<S>& to, const Sim3<S>& to_from,
-                std::int32_t shared) {
-    graph.edges.push_back({node_of_[map.index(from)], node_of_[map.index(to.id)], to_from,
-                           options.sigmas.inverse(shared, depth(map, to))});
-  }
-  void add_edge(const Map<S>& map, KeyframeId from, const Keyframe<S>& to, std::int32_t shared) {
-    const SE3<S> to_from = to.cam_from_world * map.keyframes[map.index(from)].cam_from_world.inverse();
-    add_edge(map, from, to, similarity(to_from), shared);
+  void add_edge(std::int32_t from, std::int32_t to, const Sim3<S>& to_from, std::int32_t shared) {
+    graph.edges.push_back({from, to, to_from, options.sigmas.inverse(shared, depths_[Map<S>::index(to)])});
   }
 
   // Median depth of the points that a keyframe sees; 1 where it sees none.
   [[nodiscard]] S depth(const Map<S>& map, const Keyframe<S>& kf) {
-    depths_.clear();
+    seen_.clear();
     for (const LandmarkId id : kf.point_landmarks)
-      if (id != kNone) depths_.push_back((kf.cam_from_world * map.points[map.index(id)].position).z());
-    if (depths_.empty()) return 1;
-    const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
-    std::nth_element(depths_.begin(), middle, depths_.end());
-    return std::max(*middle, S(1e-6));
+      if (id != kNone) seen_.push_back((kf.cam_from_world * map.points[map.index(id)].position).z());
+    return seen_.empty() ? S(1) : std::max(median<S>(seen_), S(1e-6));
   }
 
   std::vector<std::int32_t> node_of_;  // by keyframe
-  std::vector<S> depths_;
+  std::vector<S> depths_;              // by node
+  std::vector<S> seen_;                // scratch of depth()
 };
 
 }  // namespace sslam

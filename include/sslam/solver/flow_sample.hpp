@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "sslam/core/median.hpp"
 #include "sslam/solver/flow.hpp"
 #include "sslam/solver/stratified_sample.hpp"
 
@@ -68,13 +69,6 @@ struct ParallaxMedians {
   S angle = 0;                                 // between R_10 x0 and x1, rad
   S nearness = std::numeric_limits<S>::max();  // inverse depth of the moved ones, in baselines
 };
-
-template <Scalar S>
-[[nodiscard]] S median(std::span<S> values) noexcept {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 template <Scalar S>
 [[nodiscard]] ParallaxMedians<S> parallax_medians(const FlowSample<S>& sample, const FlowGate<S>& gate,

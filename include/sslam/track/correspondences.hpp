@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "sslam/core/median.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/solver/pose_refinement.hpp"
 #include "sslam/track/tracked_frame.hpp"
@@ -65,10 +66,7 @@ struct Correspondences {
       if (point_inliers[i]) depths_.push_back((cam_from_world * points[i].point_world).z());
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (line_inliers[i]) depths_.push_back((cam_from_world * line_midpoints[i]).z());
-    if (depths_.empty()) return 1;
-    const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
-    std::nth_element(depths_.begin(), middle, depths_.end());
-    return *middle;
+    return depths_.empty() ? S(1) : median<S>(depths_);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "sslam/core/median.hpp"
 #include "sslam/solver/find_relative_pose.hpp"
 #include "sslam/solver/relative_pose.hpp"
 #include "sslam/solver/translation.hpp"
@@ -158,9 +159,7 @@ class DecoupledInitialisation {
       depths_.push_back(answer.point.z());
     }
     if (static_cast<int>(seeds_.size()) < min_points) return Reason::kLowParallax;
-    const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
-    std::nth_element(depths_.begin(), middle, depths_.end());
-    const S scale = scene_depth / *middle;
+    const S scale = scene_depth / median<S>(depths_);
     reference_.cam_from_world = {reference_rotation(frame, R_10), Vec3<S>::Zero()};
     frame.cam_from_world = {R_10 * reference_.cam_from_world.rotation, scale * t_10};
     reference_.forget_matches();

@@ -21,6 +21,11 @@ struct LoopAnswer {
   bool closed = false;
   // By keyframe, how the world moved there; empty where nothing had drifted. Valid until the next call.
   std::span<const Sim3<S>> new_from_old;
+
+  // What lengths at the keyframe are multiplied by.
+  [[nodiscard]] S scale_at(KeyframeId keyframe) const {
+    return new_from_old.empty() ? S(1) : new_from_old[Map<S>::index(keyframe)].scale;
+  }
 };
 
 template <Scalar S>

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "sslam/core/median.hpp"
 #include "sslam/geometry/sim3.hpp"
 #include "sslam/track/fallback.hpp"
 #include "sslam/track/place_recognition.hpp"
@@ -106,15 +107,13 @@ class LoopDetection {
               return line.closest_to_ray(Vec3<S>::Zero(), ray).z();
             });
     if (static_cast<int>(ratios_.size()) < min_depths) return std::nullopt;
-    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
-    std::nth_element(ratios_.begin(), middle, ratios_.end());
-    const S median = *middle;
+    const S drift = median<S>(ratios_);
     const auto agree = std::count_if(ratios_.begin(), ratios_.end(), [&](S ratio) {
-      return std::abs(std::log(ratio / median)) < depth_agreement;
+      return std::abs(std::log(ratio / drift)) < depth_agreement;
     });
     const bool agreed = static_cast<S>(agree) >= min_depth_share * static_cast<S>(ratios_.size());
-    if (!agreed || !(std::abs(std::log(median)) < std::log(max_scale_drift))) return std::nullopt;
-    return median;
+    if (!agreed || !(std::abs(std::log(drift)) < std::log(max_scale_drift))) return std::nullopt;
+    return drift;
   }
 
   std::vector<KeyframeId> connected_, candidates_;

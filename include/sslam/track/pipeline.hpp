@@ -5,13 +5,12 @@
 
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "sslam/track/backfill.hpp"
 #include "sslam/track/concepts.hpp"
 #include "sslam/track/keyframe_cursor.hpp"
 #include "sslam/track/motion_model.hpp"
-#include "sslam/track/place_recognition.hpp"
+#include "sslam/track/relocalisation.hpp"
 #include "sslam/track/stage_timer.hpp"
 #include "sslam/track/tracking_loss.hpp"
 #include "sslam/track/trajectory_log.hpp"
@@ -38,7 +37,7 @@ class Pipeline {
   Loops loops;
   Backfill<S> backfill;
   TrackingLoss<S> loss;
-  PlaceRecognition<S> places;
+  Relocalisation<S> relocalisation;
   Timer timer;
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
@@ -128,9 +127,7 @@ class Pipeline {
     if (answer.closed) {
       current_->read_back(map_.keyframes[map_.index(cursor_.reference())]);
       if (!answer.new_from_old.empty()) log_.follow(answer.new_from_old);
-      const bool rescaled = !answer.new_from_old.empty();
-      motion_.move_to(current_->cam_from_world,
-                      rescaled ? answer.new_from_old[map_.index(cursor_.reference())].scale : S(1));
+      motion_.move_to(current_->cam_from_world, answer.scale_at(cursor_.reference()));
     }
     timer.end(Stage::kLoops);
   }
@@ -185,22 +182,13 @@ class Pipeline {
     return estimate;
   }
 
-  // Compares a lost frame with its last reference, then with the keyframes that look most like it, and with
-  // one of all in turn.
   PoseEstimate<S> relocalise(TrackResult<S>& result) {
     result.state = State::kFallback;
-    candidates_.assign(1, cursor_.reference());
-    places.rank(map_, current_->frame, candidates_);
-    candidates_.push_back(loss.next_candidate(map_));
-    PoseEstimate<S> estimate;
-    for (auto at = candidates_.begin(); at != candidates_.end() && !estimate.ok(); ++at) {
-      const KeyframeId candidate = *at;
-      current_->cam_from_world = map_.keyframes[map_.index(candidate)].cam_from_world;
-      estimate = fallback.track_keyframe(map_, candidate, nullptr, *current_);
-      if (estimate.ok()) estimate = refinement.refine(map_, nullptr, *current_);
-      if (estimate.ok() && !stands_square(result)) estimate.reason = Reason::kNoConsensus;
-      if (estimate.ok()) cursor_.refer_to(candidate);
-    }
+    KeyframeId place = cursor_.reference();
+    const auto agrees = [&] { return stands_square(result); };
+    const PoseEstimate<S> estimate =
+        relocalisation.find(map_, fallback, refinement, agrees, *current_, place);
+    cursor_.refer_to(place);
     timer.end(Stage::kFallback);
     return estimate;
   }
@@ -211,7 +199,8 @@ class Pipeline {
     timer.end(Stage::kFallback);
     const SO3<S>& found = current_->cam_from_world.rotation;
     const RotationAnswer<S> answer = rotate(found, result);
-    return !answer.trusted || angle_between(current_->manhattan->cam_from_world, found) < loss.max_turn;
+    return !answer.trusted ||
+           angle_between(current_->manhattan->cam_from_world, found) < relocalisation.max_turn;
   }
 
   void lose(TrackResult<S>& result, Reason reason) {
@@ -254,7 +243,6 @@ class Pipeline {
   ConstantVelocity<S> motion_;
   Correspondences<S> scratch_;
   KeyframeCursor<S> cursor_;
-  std::vector<KeyframeId> candidates_;  // for a lost frame
 };
 
 }  // namespace sslam

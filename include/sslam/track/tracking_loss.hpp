@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A loss of track: how long it has lasted, with which keyframe to look for the place next, and whether it
-// speaks against the map.
+// A loss of track: how long it has lasted, and whether it speaks against the map.
 #pragma once
 
 #include "sslam/map/map.hpp"
@@ -10,10 +9,9 @@ namespace sslam {
 template <Scalar S>
 class TrackingLoss {
  public:
-  int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
-  int give_up_after = 15;      // lost frames with enough features until that happens
-  int telling_features = 50;   // points plus lines that make a frame speak for or against the map
-  S max_turn = radians(S(5));  // between the rotation of a pose found again and what the Manhattan frame says
+  int young_map = 5;          // keyframes: a map lost while it has fewer is given up and started anew
+  int give_up_after = 15;     // lost frames with enough features until that happens
+  int telling_features = 50;  // points plus lines that make a frame speak for or against the map
 
   [[nodiscard]] bool lasts() const noexcept { return frames_ > 0; }
 
@@ -34,19 +32,10 @@ class TrackingLoss {
     return unfit_ >= give_up_after && !given_ && static_cast<int>(map.keyframes.size()) < young_map;
   }
 
-  // The keyframes in turn; the first one is always alive.
-  [[nodiscard]] KeyframeId next_candidate(const Map<S>& map) noexcept {
-    const auto count = static_cast<KeyframeId>(map.keyframes.size());
-    do last_ = (last_ + 1) % count;
-    while (!map.keyframes[map.index(last_)].alive());
-    return last_;
-  }
-
  private:
   int frames_ = 0;  // in a row
   int unfit_ = 0;   // of them, those that showed enough to be recognised
   bool given_ = false;
-  KeyframeId last_ = kNone;  // candidate
 };
 
 }  // namespace sslam
