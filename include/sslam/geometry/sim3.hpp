@@ -58,9 +58,9 @@ struct Sim3 {
     return a;
   }
 
-  // Log(Exp(delta) * Exp(xi)) = xi + left_jacobian_inverse(xi) * delta for small delta: Bernoulli's series in
-  // the bracket of xi (Chirikjian, Stochastic Models vol. 2, 2012, section 10.7). Angles up to 1 and scales
-  // up to e are exact to 1e-6.
+  // Log(Exp(delta) * Exp(xi)) = xi + left_jacobian_inverse(xi) * delta for small delta: the first terms of
+  // Bernoulli's series in the bracket of xi. Its entries are exact to 2e-6 for angles up to half a radian and
+  // scales up to e, to 2e-5 for angles up to one radian.
   [[nodiscard]] static Mat<S, 7, 7> left_jacobian_inverse(const Vec<S, 7>& xi) noexcept {
     Mat<S, 7, 7> bracket = Mat<S, 7, 7>::Zero();
     bracket.template block<3, 3>(0, 0) = hat<S>(xi.template head<3>());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What two poses of a pose graph disagree by with the motion that was measured between them, scale included
-// (Strasdat, Montiel, Davison, Scale Drift-Aware Large Scale Monocular SLAM, RSS 2010, eq. 9).
+// (Strasdat, Montiel, Davison, Scale Drift-Aware Large Scale Monocular SLAM, RSS 2010).
 #pragma once
 
 #include "sslam/geometry/sim3.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a bundle adjustment went.
+// How a bundle adjustment, or the adjustment of a pose graph, went.
 #pragma once
 
 #include "sslam/core/status.hpp"

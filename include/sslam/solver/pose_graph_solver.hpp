@@ -31,8 +31,8 @@ class PoseGraphSolver {
  public:
   PoseGraphOptions<S> options;
 
-  // On failure the graph is left as it was. At least one node must be held, and every other one must hang on
-  // it by edges; otherwise kDegenerate.
+  // On failure the graph is left as it was. A node without an edge stays where it is; without a held node all
+  // of them float, and the damping keeps them near where they were.
   BundleSummary solve(PoseGraph<S>& graph) {
     BundleSummary summary;
     if (graph.edges.empty()) return summary;
