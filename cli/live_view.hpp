@@ -2,7 +2,7 @@
 // `sslam run --view`: the report's page while the run goes on, then the report.
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "cli/live_run.hpp"
 #include "cli/run_report.hpp"
@@ -17,11 +17,10 @@ class LiveView {
 
   void add(const WatchedFrame& seen) { run_.add(seen); }
 
-  // Of the run's files, until Ctrl-C.
-  void show_report();
+  // The run is over: shows its report until Ctrl-C.
+  void show(std::string report);
 
  private:
-  std::filesystem::path folder_;
   LiveRun run_;
   ViewServer server_;
 };

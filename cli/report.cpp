@@ -44,13 +44,15 @@ std::string report_html(const nlohmann::ordered_json& data, const std::vector<st
   return html += page.after_views;
 }
 
-void write_report(const std::filesystem::path& folder) {
+std::string report_of(const std::filesystem::path& folder) {
   RunFolder run = read_run_folder(folder);
   const nlohmann::ordered_json data = report_data(run);
-  io::OutputFile file(folder / kReportFile);
-  file.stream() << report_html(data, run.views);
-  file.commit();
   print_warnings(run.problems);
+  return report_html(data, run.views);
+}
+
+void write_report(const std::filesystem::path& folder, const std::string& page) {
+  io::write_text(folder / kReportFile, page);
 }
 
 void add_report_command(CLI::App& app) {
@@ -58,7 +60,7 @@ void add_report_command(CLI::App& app) {
   auto folder = std::make_shared<std::string>();
   command->add_option("run", *folder, "Folder that `sslam run --out` has written to")->required();
   command->callback([folder] {
-    write_report(*folder);
+    write_report(*folder, report_of(*folder));
     std::printf("written to       %s\n", (std::filesystem::path(*folder) / kReportFile).c_str());
   });
 }

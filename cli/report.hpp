@@ -17,8 +17,11 @@ inline constexpr std::size_t kMaxViews = 1000;  // that a run keeps for its repo
 [[nodiscard]] std::string report_html(const nlohmann::ordered_json& data,
                                       const std::vector<std::string>& views);
 
-// Reads the run's folder and writes its report there; warns about files that cannot be used. Throws io::Error
-// when there is no run, or when the report cannot be written.
-void write_report(const std::filesystem::path& folder);
+// The page of a run, from its folder; warns about files that cannot be used. Throws io::Error when there is
+// no run.
+[[nodiscard]] std::string report_of(const std::filesystem::path& folder);
+
+// Into the run's folder. Throws io::Error when it cannot be written.
+void write_report(const std::filesystem::path& folder, const std::string& page);
 
 }  // namespace sslam::cli

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/config_file.hpp"
@@ -66,7 +67,9 @@ void run(RunSettings settings) {
   const RunOutcome outcome = preset.run(stream, track, progress);
   print_warnings(outcome.warnings);
   write_run(context, outcome);
-  if (settings.report) write_report(settings.out);
+  std::string page;
+  if (settings.report || live) page = report_of(settings.out);
+  if (settings.report) write_report(settings.out, page);
   if (video) video->commit();
   if (outcome.interrupted) {
     print_warning("interrupted; what had been computed was written");
@@ -77,7 +80,7 @@ void run(RunSettings settings) {
         outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
     print_error(settings.dataset + ": no frame was tracked; last reason: " + reason);
   }
-  if (live) live->show_report();
+  if (live) live->show(std::move(page));
   if (outcome.trajectory.empty()) throw Stop{ExitCode::kFailed};
 }
 

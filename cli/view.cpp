@@ -22,13 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string run_page(const fs::path& folder) {
-  RunFolder run = read_run_folder(folder);
-  const nlohmann::ordered_json data = report_data(run);
-  print_warnings(run.problems);
-  return report_html(data, run.views);
-}
-
 // The page of a run of which there is the map alone.
 std::string map_page(const fs::path& file) {
   RunFolder run;
@@ -47,7 +40,7 @@ SharedText page_of(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored))
     throw io::Error(path.string() + ": no such file or folder; wants the folder of a run or a map.sslam");
-  return std::make_shared<const std::string>(fs::is_directory(path, ignored) ? run_page(path)
+  return std::make_shared<const std::string>(fs::is_directory(path, ignored) ? report_of(path)
                                                                              : map_page(path));
 }
 
