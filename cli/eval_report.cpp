@@ -96,9 +96,7 @@ nlohmann::ordered_json evaluation_json(const io::Evaluation& e) {
 }
 
 void write_json(const std::string& path, const nlohmann::ordered_json& json) {
-  io::OutputFile file(path);
-  file.stream() << json.dump(2) << '\n';
-  file.commit();
+  io::write_text(path, json.dump(2) + '\n');
 }
 
 }  // namespace sslam::cli

@@ -40,7 +40,7 @@ std::string export_trajectory(const ExportSettings& settings, const RunFolder& r
     return "trajectory.txt (" + poses + ")";
   }
   io::write_kitti_poses(out / "poses.txt", run.trajectory);
-  io::write_kitti_times(out / "times.txt", run.trajectory);
+  io::write_stamps(out / "times.txt", io::stamps_of(run.trajectory));
   return "poses.txt (" + poses + "), times.txt";
 }
 

@@ -2,29 +2,15 @@
 #include "cli/frame_table.hpp"
 
 #include <cmath>
-#include <type_traits>
 
-#include "sslam/io/text.hpp"
+#include "sslam/io/csv_writer.hpp"
 
 namespace sslam::cli {
 namespace {
 
-// Numbers as they are, to the last bit.
-template <class Cell>
-std::string text_of(const Cell& cell) {
-  if constexpr (std::is_same_v<Cell, bool>)
-    return cell ? "1" : "0";
-  else if constexpr (std::is_floating_point_v<Cell>)
-    return io::exact_decimal(cell, 0);
-  else if constexpr (std::is_integral_v<Cell>)
-    return std::to_string(cell);
-  else
-    return std::string(cell);
-}
-
 template <class... Cells>
 std::vector<std::string> texts_of(const Cells&... cells) {
-  return {text_of(cells)...};
+  return {io::csv_cell(cells)...};
 }
 
 }  // namespace
@@ -46,9 +32,9 @@ std::vector<std::string> frame_cells(const FrameRecord& frame) {
       texts_of(r.index, r.stamp, frame.image, name(r.state), name(r.reason), frame.points, frame.lines,
                frame.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe, r.loop_closed,
                ms(frame.points_ms), ms(frame.lines_ms), ms(frame.normals_ms), ms(frame.extraction_ms));
-  for (const double stage : frame.stage_ms) cells.push_back(text_of(ms(stage)));
-  cells.push_back(text_of(ms(frame.tracking_ms)));
-  cells.push_back(text_of(ms(frame.frame_ms())));
+  for (const double stage : frame.stage_ms) cells.push_back(io::csv_cell(ms(stage)));
+  cells.push_back(io::csv_cell(ms(frame.tracking_ms)));
+  cells.push_back(io::csv_cell(ms(frame.frame_ms())));
   return cells;
 }
 

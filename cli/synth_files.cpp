@@ -24,18 +24,10 @@ std::string numbered(const char* folder, int number, const std::string& extensio
   return cv::format("%s/%06d.%s", folder, number, extension.c_str());
 }
 
-template <class Row>
-void write_text(const fs::path& path, const std::string& header, std::size_t rows, const Row& row) {
-  io::OutputFile file(path);
-  file.stream() << header;
-  for (std::size_t i = 0; i < rows; ++i) file.stream() << row(i);
-  file.commit();
-}
-
 void write_camera(const SynthSettings& settings, const Pinhole<double>& pinhole) {
   const std::string text =
       camera_yaml({{pinhole, {}, settings.width, settings.height}, kDepthFactor, settings.rate}, "");
-  write_text(fs::path(settings.folder) / "camera.yaml", text, 0, [](std::size_t) { return ""; });
+  io::write_text(fs::path(settings.folder) / "camera.yaml", text);
 }
 
 void write_manifest(const SynthSettings& s, std::size_t frames) {
@@ -56,7 +48,7 @@ void write_manifest(const SynthSettings& s, std::size_t frames) {
   text += "image-format = \"" + s.image_format + "\"\n";
   text += cv::format("no-depth = %s\nno-normals = %s\n", s.depth ? "false" : "true",
                      s.normals ? "false" : "true");
-  write_text(fs::path(s.folder) / "synth.toml", text, 0, [](std::size_t) { return ""; });
+  io::write_text(fs::path(s.folder) / "synth.toml", text);
 }
 
 }  // namespace
@@ -114,10 +106,10 @@ void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pin
                        const io::Trajectory& truth) {
   const fs::path folder = settings.folder;
   const auto list = [&](const char* name, const std::string& extension) {
-    write_text(
-        folder / (std::string(name) + ".txt"), "# timestamp filename\n", truth.size(), [&](std::size_t i) {
-          return cv::format("%.6f ", truth[i].stamp) + numbered(name, static_cast<int>(i), extension) + "\n";
-        });
+    std::string text = "# timestamp filename\n";
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      text += cv::format("%.6f ", truth[i].stamp) + numbered(name, static_cast<int>(i), extension) + "\n";
+    io::write_text(folder / (std::string(name) + ".txt"), text);
   };
   write_camera(settings, pinhole);
   write_manifest(settings, truth.size());

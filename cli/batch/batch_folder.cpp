@@ -25,16 +25,10 @@ void refuse_foreign(const fs::path& folder) {
                   ": holds something that sslam batch has not written; choose an empty folder");
 }
 
-void write_stamps(const fs::path& path, const std::vector<double>& stamps) {
-  io::OutputFile file(path);
-  for (const double stamp : stamps) file.stream() << io::exact_decimal(stamp) << '\n';
-  file.commit();
-}
-
 void write_facts(const fs::path& folder, const std::string& name, const SequenceFacts& facts) {
   const fs::path frames = folder / frames_file_of(name), truth = folder / truth_file_of(name);
   fs::create_directories(frames.parent_path());
-  write_stamps(frames, facts.frames);
+  io::write_stamps(frames, facts.frames);
   fs::remove(truth);  // an earlier suite may have had one
   if (!facts.truth.empty()) io::write_trajectory(truth, facts.truth);
 }

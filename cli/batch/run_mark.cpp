@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/eval_report.hpp"
+#include "sslam/io/checksum.hpp"
 #include "sslam/io/text.hpp"
 
 namespace sslam::cli {
@@ -52,13 +53,9 @@ bool saw_images(const Json& metrics) {
 
 std::string program_fingerprint() {
   static const std::string fingerprint = [] {
-    std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
-    for (const char c : io::read_text("/proc/self/exe")) {
-      hash ^= static_cast<unsigned char>(c);
-      hash *= 0x100000001b3ULL;
-    }
+    const std::uint64_t sum = io::checksum(io::read_text("/proc/self/exe"));
     char text[32];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
     return std::string(SSLAM_VERSION) + "-" + text;
   }();
   return fingerprint;

@@ -6,17 +6,12 @@
 
 #include "cli/batch/table_formats.hpp"
 #include "sslam/io/csv_writer.hpp"
+#include "sslam/io/output_file.hpp"
 
 namespace sslam::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_text(const fs::path& path, const std::string& text) {
-  io::OutputFile file(path);
-  file.stream() << text;
-  file.commit();
-}
 
 std::string number(const std::optional<double>& value) {
   if (!value) return "";
@@ -67,9 +62,9 @@ void write_runs(const fs::path& path, const Results& results) {
 }  // namespace
 
 void write_tables(const fs::path& folder, const Results& results, const ResultPage& page) {
-  write_text(folder / "tables.md", markdown_page(page));
-  write_text(folder / "tables.tex", latex_page(page));
-  write_text(folder / "tables.html", html_page(page));
+  io::write_text(folder / "tables.md", markdown_page(page));
+  io::write_text(folder / "tables.tex", latex_page(page));
+  io::write_text(folder / "tables.html", html_page(page));
   for (const ResultTable& table : page.tables) write_table(folder / (table.file + ".csv"), table);
   write_runs(folder / "runs.csv", results);
 }

@@ -92,7 +92,7 @@ TEST_CASE("KITTI's rows are the upper rows of camera to world") {
                              {SO3<double>::exp({0, 0, std::acos(0.0)}), Vec3<double>(1.5, -2, 1e-7)}};
   const io::Trajectory poses{pose, pose};
   io::write_kitti_poses(scratch.path() / "poses.txt", poses);
-  io::write_kitti_times(scratch.path() / "times.txt", poses);
+  io::write_stamps(scratch.path() / "times.txt", io::stamps_of(poses));
   const auto rows = lines_of(scratch.path() / "poses.txt");
   REQUIRE(rows.size() == 2);
   const std::vector<double> wanted{0, -1, 0, 1.5, 1, 0, 0, -2, 0, 0, 1, 1e-7}, got = numbers_of(rows[1]);

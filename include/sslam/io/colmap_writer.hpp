@@ -80,6 +80,10 @@ class Writer {
     out << text_;
   }
 
+  [[nodiscard]] double observations_per(std::size_t count) const noexcept {
+    return count > 0 ? static_cast<double>(counts_.observations) / static_cast<double>(count) : 0;
+  }
+
   void write_cameras() {
     OutputFile file(folder_ / "cameras.txt");
     file.stream() << "# Camera list with one line of data per camera:\n"
@@ -95,14 +99,11 @@ class Writer {
 
   void write_images() {
     OutputFile file(folder_ / "images.txt");
-    const double mean = counts_.images > 0
-                            ? static_cast<double>(counts_.observations) / static_cast<double>(counts_.images)
-                            : 0;
     file.stream() << "# Image list with two lines of data per image:\n"
                   << "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
                   << "#   POINTS2D[] as (X, Y, POINT3D_ID)\n"
-                  << "# Number of images: " << counts_.images << ", mean observations per image: " << mean
-                  << "\n";
+                  << "# Number of images: " << counts_.images
+                  << ", mean observations per image: " << observations_per(counts_.images) << "\n";
     for (const auto& keyframe : map_.keyframes)
       if (keyframe.alive()) write_image(file.stream(), keyframe);
     file.commit();
@@ -127,12 +128,10 @@ class Writer {
 
   void write_points() {
     OutputFile file(folder_ / "points3D.txt");
-    const double mean = counts_.points > 0
-                            ? static_cast<double>(counts_.observations) / static_cast<double>(counts_.points)
-                            : 0;
     file.stream() << "# 3D point list with one line of data per point:\n"
                   << "#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n"
-                  << "# Number of points: " << counts_.points << ", mean track length: " << mean << "\n";
+                  << "# Number of points: " << counts_.points
+                  << ", mean track length: " << observations_per(counts_.points) << "\n";
     for (std::size_t i = 0; i < map_.points.size(); ++i) {
       const auto& point = map_.points[i];
       if (!in_model(point)) continue;

@@ -14,6 +14,19 @@
 
 namespace sslam::io {
 
+// What stands for a value in a table: numbers to their last bit, true as 1.
+template <class Value>
+[[nodiscard]] std::string csv_cell(const Value& value) {
+  if constexpr (std::is_same_v<Value, bool>)
+    return value ? "1" : "0";
+  else if constexpr (std::is_floating_point_v<Value>)
+    return exact_decimal(value, 0);
+  else if constexpr (std::is_integral_v<Value>)
+    return std::to_string(value);
+  else
+    return std::string(value);
+}
+
 class CsvWriter {
  public:
   // Throws Error when the place cannot be written to.
@@ -40,15 +53,10 @@ class CsvWriter {
   void write_cell(const Cell& cell) {
     if (!first_) file_.stream() << ',';
     first_ = false;
-    if constexpr (std::is_same_v<Cell, bool>) {
-      file_.stream() << (cell ? 1 : 0);
-    } else if constexpr (std::is_floating_point_v<Cell>) {
-      file_.stream() << exact_decimal(cell, 0);
-    } else if constexpr (std::is_integral_v<Cell>) {
-      file_.stream() << std::to_string(cell);
-    } else {
+    if constexpr (std::is_arithmetic_v<Cell>)
+      file_.stream() << csv_cell(cell);
+    else
       write_text(cell);
-    }
   }
 
   // Quoted where a reader would otherwise split it (RFC 4180).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trajectories in the format of KITTI's odometry benchmark: a pose a row, the upper three rows of
-// world_from_cam one after the other; its rows have no stamps, which stand in a file of their own.
+// world_from_cam one after the other; its rows have no stamps: write_stamps() puts them in a file of their
+// own.
 #pragma once
 
 #include <cstdio>
@@ -8,7 +9,6 @@
 #include <span>
 
 #include "sslam/io/output_file.hpp"
-#include "sslam/io/text.hpp"
 #include "sslam/io/trajectory.hpp"
 
 namespace sslam::io {
@@ -28,13 +28,6 @@ inline void write_kitti_poses(const std::filesystem::path& path, std::span<const
     }
     file.stream() << '\n';
   }
-  file.commit();
-}
-
-// The stamp of each pose, a row each. Throws Error when it cannot be written.
-inline void write_kitti_times(const std::filesystem::path& path, std::span<const StampedPose> trajectory) {
-  OutputFile file(path);
-  for (const StampedPose& pose : trajectory) file.stream() << exact_decimal(pose.stamp) << '\n';
   file.commit();
 }
 

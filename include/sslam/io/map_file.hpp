@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "sslam/io/checksum.hpp"
 #include "sslam/io/map_check.hpp"
 #include "sslam/io/map_fields.hpp"
 #include "sslam/io/output_file.hpp"
@@ -20,12 +21,6 @@ namespace map_file_detail {
 
 inline constexpr std::string_view kMagic = "SSLAMMAP";
 inline constexpr std::uint32_t kVersion = 1;
-
-inline std::uint64_t checksum(std::string_view bytes) noexcept {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3ULL;
-  return hash;
-}
 
 struct Header {
   std::uint32_t version = kVersion;
@@ -48,7 +43,7 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
   MapFields(payload).walk(const_cast<Map<double>&>(map));  // a writer only reads
   detail::Header header;
   header.size = payload.bytes.size();
-  header.checksum = detail::checksum(payload.bytes);
+  header.checksum = checksum(payload.bytes);
   ByteWriter head;
   header.fields(head);
   OutputFile file(path);
@@ -74,7 +69,7 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
     if (head.left().size() != header.size)
       throw Error("holds " + std::to_string(head.left().size()) + " bytes of map where " +
                   std::to_string(header.size) + " belong: cut off, or written to since");
-    if (detail::checksum(head.left()) != header.checksum) throw Error("is damaged: its checksum is wrong");
+    if (checksum(head.left()) != header.checksum) throw Error("is damaged: its checksum is wrong");
     ByteReader payload{head.left()};
     Map<double> map;
     MapFields(payload).walk(map);

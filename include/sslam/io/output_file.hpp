@@ -8,6 +8,7 @@
 #include <fstream>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -67,6 +68,13 @@ class OutputFile {
   bool in_place_ = false;
   bool committed_ = false;
 };
+
+// Throws Error when it cannot be written.
+inline void write_text(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.stream() << text;
+  file.commit();
+}
 
 // Makes the folder and its parents, and proves that a file can be made in it: better now than after a long
 // run.

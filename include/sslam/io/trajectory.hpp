@@ -32,6 +32,13 @@ using Trajectory = std::vector<StampedPose>;
   return stamps;
 }
 
+// A stamp a row. Throws Error when it cannot be written.
+inline void write_stamps(const std::filesystem::path& path, std::span<const double> stamps) {
+  OutputFile file(path);
+  for (const double stamp : stamps) file.stream() << exact_decimal(stamp) << '\n';
+  file.commit();
+}
+
 [[nodiscard]] inline std::vector<Vec3<double>> positions_of(const Trajectory& trajectory) {
   std::vector<Vec3<double>> positions;
   positions.reserve(trajectory.size());
