@@ -66,28 +66,37 @@ struct Ring {
   }
 
   void split() {
+    split(
+        map.points,
+        [&](LandmarkId id, KeyframeId by) { return map.add_point(map.points[map.index(id)].position, by); },
+        [&](LandmarkId id, LandmarkId twin, const Observation& o) {
+          map.forget_point(id, o.keyframe);
+          map.observe_point(twin, o.keyframe, map.index(o.feature));
+        });
+    split(
+        map.lines,
+        [&](LandmarkId id, KeyframeId by) {
+          const LineLandmark<double> line = map.lines[map.index(id)];
+          return map.add_line(line.line, line.start, line.end, by);
+        },
+        [&](LandmarkId id, LandmarkId twin, const Observation& o) {
+          map.forget_line(id, o.keyframe);
+          map.observe_line(twin, o.keyframe, map.index(o.feature));
+        });
+  }
+
+  // What late keyframes observe of a landmark goes to a twin of it.
+  template <class Landmarks, class Add, class Move>
+  static void split(const Landmarks& landmarks, Add add_twin, Move move) {
     const auto late = [](const Observation& o) { return o.keyframe >= kKeyframes / 2; };
-    for (LandmarkId id = 0, count = static_cast<LandmarkId>(map.points.size()); id < count; ++id) {
-      const auto all = map.points[map.index(id)].observations;
+    for (LandmarkId id = 0, count = static_cast<LandmarkId>(landmarks.size()); id < count; ++id) {
+      const auto all = landmarks[Map<double>::index(id)].observations;
       if (std::all_of(all.begin(), all.end(), late) || spans_half(all)) continue;
       LandmarkId twin = kNone;
       for (const Observation& o : all) {
         if (!late(o)) continue;
-        if (twin == kNone) twin = map.add_point(map.points[map.index(id)].position, o.keyframe);
-        map.forget_point(id, o.keyframe);
-        map.observe_point(twin, o.keyframe, map.index(o.feature));
-      }
-    }
-    for (LandmarkId id = 0, count = static_cast<LandmarkId>(map.lines.size()); id < count; ++id) {
-      const auto all = map.lines[map.index(id)].observations;
-      if (std::all_of(all.begin(), all.end(), late) || spans_half(all)) continue;
-      LandmarkId twin = kNone;
-      for (const Observation& o : all) {
-        if (!late(o)) continue;
-        const LineLandmark<double> line = map.lines[map.index(id)];
-        if (twin == kNone) twin = map.add_line(line.line, line.start, line.end, o.keyframe);
-        map.forget_line(id, o.keyframe);
-        map.observe_line(twin, o.keyframe, map.index(o.feature));
+        if (twin == kNone) twin = add_twin(id, o.keyframe);
+        move(id, twin, o);
       }
     }
   }
