@@ -60,6 +60,7 @@ struct LineGeometry {
 template <Scalar S>
 struct LineStretch {
   S low = 0, high = 0;
+  bool forward = true;   // the line's direction is that of the segment, start to end
   bool in_front = true;  // both ends
   bool bounded = true;   // false when the line runs along the ray to an end
 };
@@ -79,6 +80,7 @@ template <Scalar S>
   }
   stretch.low = std::min(at[0], at[1]);
   stretch.high = std::max(at[0], at[1]);
+  stretch.forward = at[0] <= at[1];
   return stretch;
 }
 

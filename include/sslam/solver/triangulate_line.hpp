@@ -31,7 +31,7 @@ struct LineTriangulationOptions {
 template <Scalar S>
 struct LineTriangulation {
   Status status = Status::kTooFew;
-  Line3<S> line;                    // world
+  Line3<S> line;                    // world; its direction is that of the first view's segment, start to end
   Vec3<S> start = Vec3<S>::Zero();  // world, on the line: the ends of all that the views show of it
   Vec3<S> end = Vec3<S>::Zero();
   Mat3<S> covariance = Mat3<S>::Zero();  // of the middle of that stretch, across the line (rank 2)
@@ -42,10 +42,13 @@ struct LineTriangulation {
 
 namespace detail {
 
-// Trims the line to what the views show of it, and checks that they can. `line` is relative to the origin.
+// Trims the line to what the views show of it, turns it the way the first of them does, and checks that they
+// can. `line` is relative to the origin.
 template <Scalar S>
-[[nodiscard]] Status trim(std::span<const LineView<S>> views, const Vec3<S>& origin, const Line3<S>& line,
+[[nodiscard]] Status trim(std::span<const LineView<S>> views, const Vec3<S>& origin, Line3<S> line,
                           const LineTriangulationOptions<S>& options, LineTriangulation<S>& result) noexcept {
+  if (!seen_stretch(LineGeometry<S>(views[0], origin), line, options.min_depth).forward)
+    line = {-line.moment, -line.direction};
   constexpr S kFar = std::numeric_limits<S>::max();
   S low = kFar, high = -kFar, common_low = -kFar, common_high = kFar, shortest = kFar, distance = kFar;
   for (const LineView<S>& view : views) {
@@ -65,6 +68,7 @@ template <Scalar S>
   result.start = foot + low * line.direction;
   result.end = foot + high * line.direction;
   result.overlap = std::max(common_high - common_low, S(0)) / shortest;
+  result.line = {line.moment + origin.cross(line.direction), line.direction};
   return Status::kOk;
 }
 
@@ -81,7 +85,6 @@ template <Scalar S, class Line>
   result.max_error = problem.largest_error(found);
   const Status trimmed = trim(views, origin, found, options, result);
   if (trimmed != Status::kOk) return trimmed;
-  result.line = {found.moment + origin.cross(found.direction), found.direction};
   Mat<S, D, D> line_covariance;
   if (!inverse_of<S, D>(summary.information, line_covariance)) return Status::kLowParallax;
   const auto covariance = [&](const Vec3<S>& at) -> Mat3<S> {
