@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Backfill: the frames that passed while the first map was still being waited for get their poses once it
-// stands.
+// Backfill: the frames that passed while the first map was still being waited for, or while one was tried
+// that was then given up, get their poses once it stands.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,11 @@ class Backfill {
   }
 
   void clear() { waiting_.clear(); }
+
+  // The world in which rotations were seen is given up.
+  void leave_world() {
+    for (TrackedFrame<S>& frame : waiting_) frame.forget_manhattan();
+  }
 
   // Tracks the waiting frames one after the other, away from the first and the last keyframe of the first
   // map: between them from the first until track is lost, then from the last; before them backwards. Poses go

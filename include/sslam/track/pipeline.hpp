@@ -52,6 +52,10 @@ class Pipeline {
       initialise(result);
     else
       follow(result);
+    if (map_.empty() || loss.undecided(map_))
+      backfill.keep(*current_);
+    else
+      backfill.clear();
     map_.world_from_manhattan = rotation.world_from_manhattan();
     return result;
   }
@@ -85,7 +89,7 @@ class Pipeline {
     timer.end(Stage::kRotation);
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
-    if (result.reason != Reason::kFine) return backfill.keep(*current_);
+    if (result.reason != Reason::kFine) return;
     mapping.begin(map_, *current_, cursor_.scene_depth(map_, *current_));
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : map_.keyframes)
@@ -103,6 +107,8 @@ class Pipeline {
     recent_.gather(*last_, *before_);
     const PoseEstimate<S> estimate = loss.lasts() ? relocalise(result) : track_pose(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
+    loss.weigh(*current_);
+    if (loss.refutes(map_)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = current_->cam_from_world;
@@ -198,9 +204,8 @@ class Pipeline {
   bool stands_square(TrackResult<S>& result) {
     timer.end(Stage::kFallback);
     const SO3<S>& found = current_->cam_from_world.rotation;
-    const RotationAnswer<S> answer = rotate(found, result);
-    return !answer.trusted ||
-           angle_between(current_->manhattan->cam_from_world, found) < relocalisation.max_turn;
+    rotate(found, result);
+    return !loss.contradicts(*current_);
   }
 
   void lose(TrackResult<S>& result, Reason reason) {
@@ -218,7 +223,9 @@ class Pipeline {
     rotation.reset(map_.world_from_manhattan);
     initialisation.reset();
     motion_.stop();
-    loss.end();
+    loss.begin_again();
+    current_->forget_manhattan();
+    backfill.leave_world();
   }
 
   void report(TrackResult<S>& result, State state) {

@@ -13,7 +13,6 @@ template <Scalar S>
 class Relocalisation {
  public:
   PlaceRecognition<S> places;
-  S max_turn = radians(S(5));  // between the rotation of a pose and what the Manhattan frame says
 
   // Compares the frame with `reference`, then with the keyframes that look most like it, and with one of all
   // in turn, until the pose at one of them is found, refined and agreed to by `agrees()`; `reference` becomes

@@ -24,9 +24,13 @@ struct TrackedFrame {
   void adopt(Frame<S>& source) {
     std::swap(frame, source);
     grid.build(frame.points, frame.width, frame.height);
+    forget_manhattan();
+    forget_matches();
+  }
+
+  void forget_manhattan() {
     line_axes.assign(frame.lines.size(), kNone);
     manhattan.reset();
-    forget_matches();
   }
 
   void forget_matches() {

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A loss of track: how long it has lasted, and whether it speaks against the map.
+// What speaks against the map: a loss of track, and poses that stand askew to the Manhattan frame.
 #pragma once
 
-#include "sslam/map/map.hpp"
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "sslam/track/tracked_frame.hpp"
 
 namespace sslam {
 
 template <Scalar S>
 class TrackingLoss {
  public:
-  int young_map = 5;          // keyframes: a map lost while it has fewer is given up and started anew
-  int give_up_after = 15;     // lost frames with enough features until that happens
-  int telling_features = 50;  // points plus lines that make a frame speak for or against the map
+  int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
+  int give_up_after = 15;      // frames in a row that speak against it until that happens
+  int telling_features = 50;   // points plus lines that make a lost frame speak against the map
+  S max_turn = radians(S(5));  // between a pose and what the Manhattan frame says of its rotation, and
+  S max_sigmas = 4;            // the same in standard deviations: beyond both they contradict each other
 
   [[nodiscard]] bool lasts() const noexcept { return frames_ > 0; }
 
@@ -28,13 +33,55 @@ class TrackingLoss {
   }
   void end() noexcept { frames_ = unfit_ = 0; }
 
+  // A frame has a pose. A first map whose depths are wrong, as two views of a flat scene can leave it, turns
+  // the camera as it moves; the Manhattan frame does not turn along.
+  void weigh(const TrackedFrame<S>& frame) {
+    if (!frame.manhattan) return;
+    const bool against = contradicts(frame);
+    askew_ = against ? askew_ + 1 : 0;
+    square_ += against ? 0 : 1;
+  }
+  [[nodiscard]] bool contradicts(const TrackedFrame<S>& frame) const {
+    if (!frame.manhattan) return false;
+    const SO3<S> off = frame.manhattan->cam_from_world * frame.cam_from_world.rotation.inverse();
+    const Vec3<S> turn = off.log();
+    return turn.norm() > max_turn &&
+           turn.dot(frame.manhattan->covariance.llt().solve(turn)) > max_sigmas * max_sigmas;
+  }
+
+  // A young map that a loss speaks against, or one with more frames askew to the Manhattan frame, in a row,
+  // than it has ever had square to it.
   [[nodiscard]] bool refutes(const Map<S>& map) const noexcept {
-    return unfit_ >= give_up_after && !given_ && static_cast<int>(map.keyframes.size()) < young_map;
+    return !given_ && (lost_young(map) || askew_ >= patience());
+  }
+  // Whether that may still come to pass soon.
+  [[nodiscard]] bool undecided(const Map<S>& map) const noexcept {
+    return !given_ && (young(map) || square_ < give_up_after);
+  }
+
+  // Another map begins. Where one after the other is askew, the world is not as square as it looks: each of
+  // them is given twice the time.
+  void begin_again() noexcept {
+    if (askew_ >= patience()) ++given_up_;
+    frames_ = unfit_ = askew_ = square_ = 0;
   }
 
  private:
-  int frames_ = 0;  // in a row
-  int unfit_ = 0;   // of them, those that showed enough to be recognised
+  [[nodiscard]] bool young(const Map<S>& map) const noexcept {
+    return static_cast<int>(map.keyframes.size()) < young_map;
+  }
+  [[nodiscard]] bool lost_young(const Map<S>& map) const noexcept {
+    return unfit_ >= give_up_after && young(map);
+  }
+  [[nodiscard]] int patience() const noexcept {
+    return std::max(give_up_after << std::min(given_up_, 16), square_);
+  }
+
+  int frames_ = 0;    // in a row
+  int unfit_ = 0;     // of them, those that showed enough to be recognised
+  int askew_ = 0;     // tracked frames in a row that contradict the Manhattan frame
+  int square_ = 0;    // tracked frames of this map that agree with it
+  int given_up_ = 0;  // maps, for being askew
   bool given_ = false;
 };
 
