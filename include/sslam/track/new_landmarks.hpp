@@ -147,7 +147,8 @@ class NewLandmarks {
       return make_line_view(kf.cam_from_world, kf.frame.pinhole, f.segment, f.sigma);
     };
     const std::array views{view(a, p.first), view(b, p.second)};
-    const auto answer = triangulate_line<S>(views, line_options());
+    const auto answer =
+        triangulate(map, a.line_axes[map.index(p.first)], b.line_axes[map.index(p.second)], views);
     if (!usable(answer.status)) return false;
     if (!plausible_depth(a, answer.start, median_depth) || !plausible_depth(a, answer.end, median_depth))
       return false;
@@ -156,6 +157,18 @@ class NewLandmarks {
     map.observe_line(landmark, id_b, Map<S>::index(p.second));
     map.observe_line(landmark, id_a, Map<S>::index(p.first));
     return true;
+  }
+
+  // With too little parallax for four degrees of freedom there may be enough for the two that are left along
+  // the Manhattan axis which both views see the segment follow.
+  [[nodiscard]] LineTriangulation<S> triangulate(const Map<S>& map, std::int8_t axis_a, std::int8_t axis_b,
+                                                 std::span<const LineView<S>> views) const {
+    const auto answer = triangulate_line<S>(views, line_options());
+    if (answer.status != Status::kLowParallax || axis_a == kNone || axis_a != axis_b ||
+        !map.world_from_manhattan)
+      return answer;
+    const Vec3<S> direction = map.world_from_manhattan->matrix().col(axis_a);
+    return triangulate_line_along<S>(views, direction, line_options());
   }
 
   [[nodiscard]] bool plausible_depth(const Keyframe<S>& keyframe, const Vec3<S>& point,
