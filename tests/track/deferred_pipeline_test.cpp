@@ -33,13 +33,14 @@ TEST_CASE("A walk is tracked as well when mapping comes late") {
   for (const std::size_t pause : {1, 4, 20}) {
     Simulation simulation(walk(150));
     LatePipeline pipeline;
-    pipeline.upkeep.courier.max_waiting = 2;
+    pipeline.upkeep.courier.max_waiting = 1;
+    pipeline.keyframes.max_baseline = 0.03;  // more keyframes than this mapping can take
     const auto results = track_all(pipeline, simulation, pause);
     INFO("pause " << pause << ", keyframes not made " << pipeline.upkeep.refused());
     REQUIRE(count(results, State::kLost) == 0);
     REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
     REQUIRE(position_error(pipeline, simulation) < 2 * position_error(at_once, same) + 0.005);
-    REQUIRE((pipeline.upkeep.refused() > 0) == (pause == 20));
+    if (pause == 20) REQUIRE(pipeline.upkeep.refused() > 0);
   }
 }
 
