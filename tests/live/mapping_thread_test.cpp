@@ -14,7 +14,8 @@ using namespace sslam::testing;
 
 using LivePipeline = live::Structure<double>;
 
-// Frames come no faster than mapping can bear, whatever machine and sanitizer this runs on.
+// Frames come no faster than mapping can bear, whatever machine and sanitizer this runs on: never with
+// all the posts that may wait.
 TrackResult<double> track(LivePipeline& pipeline, Frame<double> frame) {
   while (pipeline.upkeep.courier.running() && !pipeline.upkeep.courier.room())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -26,11 +27,15 @@ TrackResult<double> track(LivePipeline& pipeline, Frame<double> frame) {
 TEST_CASE("A walk is tracked while another thread keeps the map") {
   Simulation simulation(walk(150));
   LivePipeline pipeline;
+  pipeline.upkeep.courier.max_waiting = 2;  // one in work: a map too old for what is seen loses track
   std::vector<TrackResult<double>> results;
   for (std::size_t k = 0; k < simulation.size(); ++k) results.push_back(track(pipeline, simulation.frame(k)));
   pipeline.finish();
   REQUIRE(count(results, State::kInitialising) < 30);
-  REQUIRE(count(results, State::kLost) == 0);
+  for (const auto& result : results) {
+    INFO("frame " << result.index << " " << name(result.reason));
+    CHECK(result.state != State::kLost);
+  }
   REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
   REQUIRE(position_error(pipeline, simulation) < 0.03);
   REQUIRE(pipeline.map().keyframes.size() > 5);

@@ -90,8 +90,7 @@ class MappingThread {
 
   void work(Mapping& mapping, Loops& loops) {
     try {
-      KeyframePost<S> post;
-      while (next(post)) {
+      for (KeyframePost<S> post; next(post); post = {}) {  // frees its memory outside the lock
         keeper_.take(post, mapping, loops);
         keeper_.publish(spare_);
         const std::lock_guard lock(mutex_);
