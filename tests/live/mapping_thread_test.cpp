@@ -14,8 +14,8 @@ using namespace sslam::testing;
 
 using LivePipeline = live::Structure<double>;
 
-// Frames come no faster than mapping can bear, whatever machine and sanitizer this runs on: never with
-// all the posts that may wait.
+// Frames come no faster than mapping can bear, whatever machine and sanitizer this runs on.
+// A camera would not wait.
 TrackResult<double> track(LivePipeline& pipeline, Frame<double> frame) {
   while (pipeline.upkeep.courier.running() && !pipeline.upkeep.courier.room())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
