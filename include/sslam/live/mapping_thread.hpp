@@ -116,7 +116,7 @@ class MappingThread {
   }
 
   MapKeeper<S> keeper_;  // the thread's, while it runs
-  MapEdition<S> spare_;  // the thread's too: the third one is the tracker's
+  MapEdition<S> spare_;  // the thread's too
   std::mutex mutex_;     // for what follows
   std::condition_variable changed_;
   std::deque<KeyframePost<S>> posts_;
