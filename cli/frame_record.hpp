@@ -68,6 +68,7 @@ struct RunOutcome {
   std::vector<std::string> warnings;
   std::vector<std::string> views;  // frames as encode_frame_view gives them
   double wall_seconds = 0;         // of the whole loop
+  int keyframes_not_made = 0;      // live: frames that mapping was too far behind for
   bool interrupted = false;
 };
 

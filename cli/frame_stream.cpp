@@ -42,7 +42,7 @@ void FrameStream::produce() {
       {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return ready_.size() < kAhead || stop_; });
-        if (stop_) return;
+        if (stop_ || !wait_until_due(lock, entry)) return;
         if (!spare_.empty()) {
           frame = std::move(spare_.back());
           spare_.pop_back();
@@ -59,6 +59,14 @@ void FrameStream::produce() {
   const std::lock_guard lock(mutex_);
   finished_ = true;
   changed_.notify_all();
+}
+
+// A frame that finds no room comes late: none is dropped. False: the stream is to stop.
+bool FrameStream::wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry) {
+  if (settings_.pace == 0) return true;
+  const double since = (entry.stamp - dataset_.frames.front().stamp) * settings_.pace;
+  const auto due = start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since));
+  return !changed_.wait_until(lock, due, [&] { return stop_; });
 }
 
 void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {

@@ -3,6 +3,7 @@
 // order.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -26,6 +27,7 @@ struct StreamSettings {
   bool use_points = true;
   bool use_lines = true;
   bool keep_pictures = false;  // hand the images on with their frames
+  double pace = 0;             // seconds a unit of the stamps, to deliver as a camera would; 0: at once
 };
 
 struct ExtractedFrame {
@@ -53,6 +55,7 @@ class FrameStream {
 
  private:
   void produce();
+  [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
   void fill(const io::FrameEntry& entry, ExtractedFrame& out);
   void keep_pictures(const ImageInput& input, ExtractedFrame& out) const;
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
@@ -61,6 +64,9 @@ class FrameStream {
   StreamSettings settings_;
   ImageFrontend<NormalChoice> frontend_;
   FrameReader reader_;
+
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
 
   static constexpr std::size_t kAhead = 3;  // frames extracted before they are asked for
   std::mutex mutex_;

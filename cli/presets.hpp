@@ -14,9 +14,12 @@
 namespace sslam::cli {
 
 [[nodiscard]] RunOutcome run_structure(FrameStream&, const TrackSettings&,
-                                       Progress&);                                     // preset_structure.cpp
-[[nodiscard]] RunOutcome run_lines(FrameStream&, const TrackSettings&, Progress&);     // preset_structure.cpp
-[[nodiscard]] RunOutcome run_paper(FrameStream&, const TrackSettings&, Progress&);     // preset_paper.cpp
+                                       Progress&);                                  // preset_structure.cpp
+[[nodiscard]] RunOutcome run_lines(FrameStream&, const TrackSettings&, Progress&);  // preset_structure.cpp
+[[nodiscard]] RunOutcome run_structure_live(FrameStream&, const TrackSettings&,
+                                            Progress&);                                  // preset_live.cpp
+[[nodiscard]] RunOutcome run_lines_live(FrameStream&, const TrackSettings&, Progress&);  // preset_live.cpp
+[[nodiscard]] RunOutcome run_paper(FrameStream&, const TrackSettings&, Progress&);       // preset_paper.cpp
 [[nodiscard]] RunOutcome run_features(FrameStream&, const TrackSettings&, Progress&);  // preset_features.cpp
 [[nodiscard]] RunOutcome run_odometry(FrameStream&, const TrackSettings&, Progress&);  // preset_odometry.cpp
 
@@ -30,15 +33,17 @@ struct Preset {
   bool use_lines;
   bool use_normals;
   RunOutcome (*run)(FrameStream&, const TrackSettings&, Progress&);
+  RunOutcome (*run_live)(FrameStream&, const TrackSettings&, Progress&) = nullptr;  // with --live, if it can
 };
 
 inline constexpr std::array<Preset, 6> kPresets{{
     {"structure", "Manhattan rotation, points and lines, local bundle adjustment", true, true, true,
-     run_structure},
+     run_structure, run_structure_live},
     {"paper", "the same without bundle adjustment, as published", true, true, true, run_paper},
-    {"points", "Manhattan rotation from normals, points alone", true, false, true, run_structure},
+    {"points", "Manhattan rotation from normals, points alone", true, false, true, run_structure,
+     run_structure_live},
     {"lines", "Manhattan rotation, lines, and no points but those that start the map", true, true, true,
-     run_lines},
+     run_lines, run_lines_live},
     {"features", "no Manhattan world: points and lines, six degrees of freedom", true, true, false,
      run_features},
     {"odometry", "frame to frame, no refinement against the local map", true, true, true, run_odometry},

@@ -28,6 +28,7 @@ namespace sslam::cli {
 
 void run(RunSettings settings) {
   const Preset& preset = find_preset(settings.preset);
+  check_live(settings, preset);
   if (settings.normals.empty()) {
     const DefaultNormals chosen = default_normals(find_shipped_model(), preset.use_normals);
     settings.normals = chosen.source;
@@ -46,6 +47,7 @@ void run(RunSettings settings) {
   stream_settings.camera = camera.camera;
   stream_settings.depth_factor = camera.depth_factor;
   stream_settings.normals = choose_normals(settings.normals);
+  if (settings.live) stream_settings.pace = dataset.seconds_per_stamp;
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
   stream_settings.keep_pictures = settings.report || settings.view || !settings.video.empty();
@@ -64,7 +66,7 @@ void run(RunSettings settings) {
   FrameStream stream(dataset, std::move(stream_settings));
   if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
   Progress progress(stream.size(), settings.verbosity, "run");
-  const RunOutcome outcome = preset.run(stream, track, progress);
+  const RunOutcome outcome = (settings.live ? preset.run_live : preset.run)(stream, track, progress);
   print_warnings(outcome.warnings);
   write_run(context, outcome);
   std::string page;
@@ -126,6 +128,10 @@ void add_run_command(CLI::App& app) {
   command->add_flag_callback("--list-parameters", list, "Print what --set can change, and stop")
       ->trigger_on_parse();
   command->add_option("--seed", s->seed, "Of everything random")->capture_default_str();
+  command->add_flag(
+      "--live", s->live,
+      "As with a camera: frames come at the pace of their stamps, mapping and loop closing have "
+      "a thread of their own, tracking never waits for them; no two runs are alike");
   command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

@@ -27,6 +27,7 @@ struct RunSettings {
   io::Slice slice;
   std::vector<std::string> set;  // stage.parameter=value
   std::uint64_t seed = 1;
+  bool live = false;       // mapping in a thread of its own, frames when a camera would deliver them
   bool report = true;      // write report.html
   std::string video;       // overlay video to write; empty: none
   bool view = false;       // show the run while it goes on, and its report until Ctrl-C

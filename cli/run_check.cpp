@@ -54,6 +54,14 @@ CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& d
   return choice;
 }
 
+void check_live(const RunSettings& settings, const Preset& preset) {
+  if (!settings.live || preset.run_live != nullptr) return;
+  std::string able;
+  for (const Preset& p : kPresets)
+    if (p.run_live != nullptr) able += (able.empty() ? "" : ", ") + std::string(p.name);
+  throw io::Error("--live: not with --preset " + settings.preset + "; use one of " + able);
+}
+
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
   if (settings.normals != "depth") return;
   const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),

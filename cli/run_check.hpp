@@ -24,6 +24,9 @@ namespace sslam::cli {
 // The camera with its size: where its source leaves that out, the first image says it.
 [[nodiscard]] CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset);
 
+// Whether the preset has what --live asks for.
+void check_live(const RunSettings& settings, const Preset& preset);
+
 // Whether the dataset has what settings.normals need.
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 

@@ -126,6 +126,9 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
     std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
                 outcome.frames.size());
+  if (outcome.keyframes_not_made > 0)
+    std::printf("mapping          behind in %d frames that should have become keyframes\n",
+                outcome.keyframes_not_made);
   if (const std::size_t loops = count_loops(outcome); loops > 0) std::printf("loops closed     %zu\n", loops);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
   std::printf("written to       %s\n", context.settings.out.c_str());
@@ -149,7 +152,8 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
           {"start", s.slice.start},
           {"end", s.slice.end},
           {"stride", s.slice.stride},
-          {"seed", s.seed}};
+          {"seed", s.seed},
+          {"live", s.live}};
 }
 
 void write_run(const RunContext& context, const RunOutcome& outcome) {
@@ -175,6 +179,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                                         static_cast<double>(context.dataset.frames.size())},
                   {"interrupted", outcome.interrupted},
                   {"keyframes", outcome.keyframes.size()},
+                  {"keyframes_not_made", outcome.keyframes_not_made},
                   {"points", count_alive(outcome.map.points)},
                   {"lines", count_alive(outcome.map.lines)},
                   {"loops", count_loops(outcome)},

@@ -108,6 +108,9 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
     progress.show(record);
     outcome.frames.push_back(std::move(record));
   }
+  if (pipeline.finish() && !outcome.frames.empty()) outcome.frames.back().result.loop_closed = true;
+  if constexpr (requires { pipeline.upkeep.refused(); })
+    outcome.keyframes_not_made = pipeline.upkeep.refused();
   outcome.wall_seconds = wall.total() * 1e-3;
   outcome.interrupted = Interrupt::asked();
   progress.finish();

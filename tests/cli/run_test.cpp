@@ -32,6 +32,21 @@ TEST_CASE("run tracks a rendered room and writes every file") {
   REQUIRE(text_of(copy.out / "trajectory.txt").find("nan") == std::string::npos);
 }
 
+TEST_CASE("run --live tracks with mapping in a thread of its own") {
+  const Copy copy;
+  const Outcome outcome = copy.run("--live");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const auto metrics = copy.metrics();
+  REQUIRE(metrics["settings"]["live"] == true);
+  REQUIRE(metrics["frames"] == kFrames);
+  REQUIRE(metrics["share_tracked"].get<double>() >= 0.9);
+  REQUIRE(metrics["keyframes_not_made"].is_number_unsigned());
+  REQUIRE(metrics["times"]["wall_seconds"].get<double>() > (kFrames - 1) / 30.0);  // as long as the recording
+  require_refused(copy.run("--live --preset paper"),
+                  "--live: not with --preset paper; use one of structure, points, lines");
+}
+
 TEST_CASE("run takes the network that comes with sslam unless told otherwise") {
   const Copy copy;
   Outcome outcome = copy.run_by_default("--end 20");

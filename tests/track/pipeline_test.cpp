@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/track/pipeline.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,44 +10,8 @@
 #include "sslam/map/map_deformation.hpp"
 #include "support/catch.hpp"
 
-namespace {
-
 using namespace sslam;
 using namespace sslam::testing;
-
-template <class P>
-std::vector<TrackResult<double>> track_all(P& pipeline, Simulation& simulation) {
-  std::vector<TrackResult<double>> results;
-  for (std::size_t k = 0; k < simulation.size(); ++k) {
-    Frame<double> frame = simulation.frame(k);
-    results.push_back(pipeline.track(frame));
-  }
-  return results;
-}
-
-// RMSE of the camera centres of the final trajectory after the best similarity: its ATE.
-template <class P>
-double position_error(const P& pipeline, const Simulation& simulation) {
-  const auto& entries = pipeline.trajectory().entries();
-  const auto count = static_cast<Eigen::Index>(entries.size());
-  Eigen::Matrix3Xd estimate(3, count), truth(3, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& entry = entries[static_cast<std::size_t>(i)];
-    estimate.col(i) = pipeline.trajectory().pose(pipeline.map(), entry).inverse().translation;
-    truth.col(i) = simulation.truth(static_cast<std::size_t>(entry.index)).inverse().translation;
-  }
-  const Eigen::Matrix4d truth_from_estimate = Eigen::umeyama(estimate, truth);
-  const Eigen::Matrix3Xd aligned = (truth_from_estimate.topLeftCorner<3, 3>() * estimate).colwise() +
-                                   truth_from_estimate.topRightCorner<3, 1>();
-  return std::sqrt((aligned - truth).colwise().squaredNorm().mean());
-}
-
-int count(const std::vector<TrackResult<double>>& results, State state) {
-  return static_cast<int>(
-      std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.state == state; }));
-}
-
-}  // namespace
 
 TEST_CASE("The pipeline starts early and tracks a walk through a room") {
   Simulation simulation(walk(150));

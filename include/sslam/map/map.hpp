@@ -125,6 +125,12 @@ class Map {
     kf = std::move(rest);
   }
 
+  // The keyframe itself, or the heir that carries its place on.
+  [[nodiscard]] KeyframeId carrier(KeyframeId id) const noexcept {
+    while (!keyframes[index(id)].alive()) id = keyframes[index(id)].heir;
+    return id;
+  }
+
   // cam_from_world of a keyframe, alive or carried on by its heirs.
   [[nodiscard]] SE3<S> pose(KeyframeId id) const noexcept {
     SE3<S> cam_from_carrier;

@@ -19,9 +19,7 @@ template <Scalar S>
 void deform(Map<S>& map, std::span<Sim3<S>> new_from_old) {
   const auto index = [](std::int32_t id) { return Map<S>::index(id); };
   for (Keyframe<S>& kf : map.keyframes) {
-    KeyframeId carrier = kf.id;
-    while (!map.keyframes[index(carrier)].alive()) carrier = map.keyframes[index(carrier)].heir;
-    const Sim3<S>& moved = new_from_old[index(kf.id)] = new_from_old[index(carrier)];
+    const Sim3<S>& moved = new_from_old[index(kf.id)] = new_from_old[index(map.carrier(kf.id))];
     if (!kf.alive()) {
       kf.cam_from_heir.translation *= moved.scale;
       continue;

@@ -53,7 +53,8 @@ class Backfill {
         TrackedFrame<S>& frame = waiting_[static_cast<std::size_t>(i)];
         const PoseEstimate<S> estimate = track(frame, map, fallback, refinement);
         if (!estimate.ok()) continue;
-        cursor_.advance(map, frame, estimate, keyframes, mapping);
+        cursor_.advance(map, frame, estimate, keyframes,
+                        [&](S depth) { return mapping.insert(map, frame, depth); });
         log.add(map, frame.frame.index, frame.frame.stamp, cursor_.reference(), frame.cam_from_world);
         previous_.read_back(frame);
         next = i + step;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "sslam/track/loop_closing.hpp"
+#include "sslam/track/map_change.hpp"
 #include "sslam/track/pose_estimate.hpp"
 #include "sslam/track/rotation.hpp"
 #include "sslam/track/translation.hpp"
@@ -68,6 +69,18 @@ concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
 template <class T, class S>
 concept LoopStage = requires(T stage, Map<S>& map) {
   { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
+};
+
+// Decides when and where mapping and loop closing happen.
+template <class T, class S, class Mapping, class Loops>
+concept UpkeepStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame, Mapping& mapping, Loops& loops) {
+  // kNone: the map cannot take the frame now.
+  { stage.insert(map, frame, KeyframeId{}, S{}, mapping, loops) } -> std::same_as<KeyframeId>;
+  { stage.close(map, KeyframeId{}, loops) } -> std::same_as<LoopAnswer<S>>;
+  // The map as it has become elsewhere; null where that is nothing new.
+  { stage.renew(map) } -> std::same_as<const MapChange<S>*>;
+  { stage.finish(map) } -> std::same_as<const MapChange<S>*>;
+  stage.forget();
 };
 
 }  // namespace sslam

@@ -20,15 +20,18 @@ class KeyframeCursor {
   // The reference is another, as after a relocalisation; how long ago the last keyframe was stays.
   void refer_to(KeyframeId keyframe) noexcept { reference_ = keyframe; }
 
-  // Takes the tracked frame into the map where the keyframe stage says so; true if it has.
-  template <class Keyframes, class Mapping>
-  bool advance(Map<S>& map, TrackedFrame<S>& frame, const PoseEstimate<S>& estimate,
-               const Keyframes& keyframes, Mapping& mapping) {
+  // Takes the tracked frame into the map where the keyframe stage says so: insert(median depth) answers with
+  // its id, or with kNone where the map cannot take it. True if it has.
+  template <class Keyframes, class Insert>
+  bool advance(const Map<S>& map, const TrackedFrame<S>& frame, const PoseEstimate<S>& estimate,
+               const Keyframes& keyframes, Insert insert) {
     ++frames_since_;
     const S depth = scene_depth(map, frame);
     const int inliers = estimate.point_inliers + estimate.line_inliers;
     if (!keyframes.choose(map, reference_, frame, inliers, frames_since_, depth)) return false;
-    move_to(mapping.insert(map, frame, depth));
+    const KeyframeId id = insert(depth);
+    if (id == kNone) return false;
+    move_to(id);
     return true;
   }
 

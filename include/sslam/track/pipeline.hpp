@@ -14,13 +14,14 @@
 #include "sslam/track/stage_timer.hpp"
 #include "sslam/track/tracking_loss.hpp"
 #include "sslam/track/trajectory_log.hpp"
+#include "sslam/track/upkeep.hpp"
 
 namespace sslam {
 
 template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisation,
           TranslationStage<S> Translation, FallbackStage<S> Fallback, RefinementStage<S> Refinement,
           KeyframeStage<S> Keyframes, MappingStage<S> Mapping, LoopStage<S> Loops = NoLoopClosing<S>,
-          StageTimer Timer = NoTimer>
+          StageTimer Timer = NoTimer, UpkeepStage<S, Mapping, Loops> Upkeep = ImmediateUpkeep<S>>
 class Pipeline {
  public:
   Pipeline() = default;
@@ -39,13 +40,15 @@ class Pipeline {
   TrackingLoss<S> loss;
   Relocalisation<S> relocalisation;
   Timer timer;
+  Upkeep upkeep;  // after the stages that it may still be at work with when the pipeline ends
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
   TrackResult<S> track(Frame<S>& frame) {
     timer.begin();
+    TrackResult<S> result;
+    result.loop_closed = follow_map(upkeep.renew(map_));
     rotate_buffers();
     current_->adopt(frame);
-    TrackResult<S> result;
     result.index = current_->frame.index;
     result.stamp = current_->frame.stamp;
     if (map_.empty())
@@ -66,6 +69,10 @@ class Pipeline {
     cursor_.move_to(0);  // never removed
     loss.begin_in_given_map();
   }
+
+  // Takes what mapping elsewhere has still to say, and waits for it; true if that closed a loop. The next
+  // frame, if there is one, goes on from there.
+  bool finish() { return follow_map(upkeep.finish(map_)); }
 
   [[nodiscard]] const Map<S>& map() const noexcept { return map_; }
   [[nodiscard]] const TrajectoryLog<S>& trajectory() const noexcept { return log_; }
@@ -117,7 +124,9 @@ class Pipeline {
       loss.end();
       result.reason = Reason::kRelocalised;
     }
-    result.keyframe = cursor_.advance(map_, *current_, estimate, keyframes, mapping);
+    result.keyframe = cursor_.advance(map_, *current_, estimate, keyframes, [&](S depth) {
+      return upkeep.insert(map_, *current_, cursor_.reference(), depth, mapping, loops);
+    });
     motion_.update(current_->cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);
@@ -128,14 +137,25 @@ class Pipeline {
 
   // The frame has just become a keyframe; the world may move under it.
   void close_loop(TrackResult<S>& result) {
-    const LoopAnswer<S> answer = loops.close(map_, cursor_.reference());
-    result.loop_closed = answer.closed;
+    const LoopAnswer<S> answer = upkeep.close(map_, cursor_.reference(), loops);
     if (answer.closed) {
+      result.loop_closed = true;
       current_->read_back(map_.keyframes[map_.index(cursor_.reference())]);
-      if (!answer.new_from_old.empty()) log_.follow(answer.new_from_old);
+      if (!answer.new_from_old.empty()) log_.follow([&](KeyframeId id) { return answer.scale_at(id); });
       motion_.move_to(current_->cam_from_world, answer.scale_at(cursor_.reference()));
     }
     timer.end(Stage::kLoops);
+  }
+
+  // The map has changed under the frames in hand; true if a loop was closed.
+  bool follow_map(const MapChange<S>* change) {
+    if (change == nullptr) return false;
+    const KeyframeId reference = cursor_.reference();
+    for (TrackedFrame<S>* const frame : {current_, last_}) change->carry(reference, *frame);
+    motion_.move_to(current_->cam_from_world, change->scale_at(reference));
+    cursor_.refer_to(map_.carrier(reference));
+    if (change->loop_closed) log_.follow([&](KeyframeId id) { return change->scale_at(id); });
+    return change->loop_closed;
   }
 
   RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
@@ -218,6 +238,7 @@ class Pipeline {
   }
 
   void start_over(Map<S> map) {
+    upkeep.forget();
     map_ = std::move(map);
     log_.clear();
     rotation.reset(map_.world_from_manhattan);

@@ -22,10 +22,10 @@ using BundleMapping = KeyframeMapping<S, MapAdjustment<S, BundleSolver<S>>>;
 
 // Decoupled tracking with the Manhattan frame, fallback, refinement against the local map, local bundle
 // adjustment, loop closing.
-template <Scalar S, StageTimer Timer = NoTimer>
-using Structure =
-    Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
-             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, LoopClosing<S>, Timer>;
+template <Scalar S, StageTimer Timer = NoTimer, class Upkeep = ImmediateUpkeep<S>>
+using Structure = Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>,
+                           FeatureFallback<S>, LocalMapRefinement<S>, SharedFeatureKeyframes<S>,
+                           BundleMapping<S>, LoopClosing<S>, Timer, Upkeep>;
 
 // The same as published (Li et al. 2020): landmarks stay as they were triangulated.
 template <Scalar S, StageTimer Timer = NoTimer>

@@ -76,7 +76,7 @@ struct TrackResult {
   int line_inliers = 0;
   int axes_seen = 0;         // Manhattan axes with support: 3, 2, 1 or 0
   bool keyframe = false;     // this frame joined the map
-  bool loop_closed = false;  // and showed a place that was known from before
+  bool loop_closed = false;  // by this frame's place, known from before; live: since the last frame
 
   [[nodiscard]] bool has_pose() const noexcept {
     return state == State::kManhattan || state == State::kFallback;

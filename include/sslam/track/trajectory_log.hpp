@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "sslam/geometry/sim3.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam {
@@ -27,10 +25,11 @@ class TrajectoryLog {
     entries_.push_back({index, stamp, reference, cam_from_world * map.pose(reference).inverse()});
   }
 
-  // Keyframes have moved by similarities: distances from them change with their scale.
-  void follow(std::span<const Sim3<S>> new_from_old) {
+  // Keyframes have moved by similarities: distances from them are multiplied by scale_at(keyframe).
+  template <class ScaleAt>
+  void follow(ScaleAt scale_at) {
     for (TrajectoryEntry<S>& entry : entries_)
-      entry.frame_from_reference.translation *= new_from_old[Map<S>::index(entry.reference)].scale;
+      entry.frame_from_reference.translation *= scale_at(entry.reference);
   }
 
   // cam_from_world of an entry, by its keyframe's pose as it is now.
