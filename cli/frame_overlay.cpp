@@ -78,7 +78,7 @@ class Overlay {
   void draw_lines(bool pale) {
     const auto& lines = frame_.frame.lines;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const OverlayColour& colour = axis_overlay(frame_.line_axes[i]);
+      const OverlayColour& colour = axis_overlay(axis_in_frame(frame_.line_axes[i]));
       if ((colour.opacity < 1) != pale) continue;
       const int thickness = (frame_.line_landmarks[i] != kNone ? 2 : 1) * unit_;
       cv::line(image_, place(lines[i].segment.start), place(lines[i].segment.end), bgr(colour), thickness,

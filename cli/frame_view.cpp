@@ -97,7 +97,7 @@ class Encoder {
     for (const std::size_t i : order) {
       put_pixel(lines[i].segment.start);
       put_pixel(lines[i].segment.end);
-      out_(frame_.line_axes[i]);
+      out_(axis_in_frame(frame_.line_axes[i]));
       out_(static_cast<std::uint8_t>(frame_.line_landmarks[i] != kNone));
     }
   }
@@ -112,10 +112,11 @@ class Encoder {
   }
 
   void put_axes() {
-    const bool known = frame_.manhattan && input_.world_from_manhattan;
+    const auto& frames = input_.world_from_manhattan;
+    const bool known = frame_.manhattan && frame_.manhattan_frame < frames.size();
     out_(static_cast<std::uint8_t>(known));
     if (!known) return;
-    const Mat3<double> axes = (frame_.manhattan->cam_from_world * *input_.world_from_manhattan).matrix();
+    const Mat3<double> axes = (frame_.manhattan->cam_from_world * frames[frame_.manhattan_frame]).matrix();
     for (const double value : axes.reshaped()) out_(static_cast<float>(value));
   }
 

@@ -17,7 +17,7 @@ struct FrameViewInput {
   const cv::Mat& picture;
   const cv::Mat& normal_picture;  // empty: none
   const Camera<double>& camera;   // of the picture
-  const std::optional<SO3<double>>& world_from_manhattan;
+  const std::vector<SO3<double>>& world_from_manhattan;
 };
 
 // Bytes, little-endian; cli/report/views.js reads them, in this order:

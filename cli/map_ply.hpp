@@ -23,7 +23,8 @@ inline void write_map_ply(const std::filesystem::path& path, const Map<double>& 
   for (const auto& line : map.lines)
     if (line.alive)
       lines.push_back(
-          {line.start, line.end, kAxisColours[static_cast<std::size_t>(line.axis < 0 ? 3 : line.axis)]});
+          {line.start, line.end,
+           kAxisColours[static_cast<std::size_t>(line.axis == kNone ? 3 : axis_in_frame(line.axis))]});
   io::write_map(path, points, lines);
 }
 

@@ -21,9 +21,13 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "how far walls and edges stand from right angles");
     visit("rotation.max_sigma", p.rotation.max_sigma, Unit::kDegrees,
           "largest standard deviation of a rotation that is trusted");
-    visit("rotation.agreement", p.rotation.agreement, Unit::kDegrees,
+    visit("rotation.frames", p.rotation.frames.most, Unit::kNumber,
+          "Manhattan frames that are told apart; 1: the first is the only one");
+    visit("rotation.told_apart", p.rotation.frames.told_apart, Unit::kDegrees,
+          "least angle between two Manhattan frames");
+    visit("rotation.agreement", p.rotation.frames.agreement, Unit::kDegrees,
           "between sightings of a Manhattan frame found late");
-    visit("rotation.confirmations", p.rotation.confirmations, Unit::kNumber,
+    visit("rotation.confirmations", p.rotation.frames.confirmations, Unit::kNumber,
           "sightings in a row that make one believed");
     visit("rotation.min_normal_share", p.rotation.search.rotation.min_normal_share, Unit::kNumber,
           "share of the normals that shows an axis");

@@ -156,7 +156,7 @@ class DataMaker {
       if (!line.alive || !line.start.allFinite() || !line.end.allFinite()) continue;
       append(lines, line.start);
       append(lines, line.end);
-      axes.push_back(line.axis);
+      axes.push_back(axis_in_frame(line.axis));
     }
     data_["points"] = floats(points);
     data_["lines"] = {{"ends", floats(lines)}, {"axes", packed<std::int8_t>("i8", axes)}};

@@ -100,6 +100,7 @@
 #include "sslam/track/landmark_culling.hpp"
 #include "sslam/track/loop_closing.hpp"
 #include "sslam/track/loop_detection.hpp"
+#include "sslam/track/manhattan_frames.hpp"
 #include "sslam/track/map_change.hpp"
 #include "sslam/track/map_keeper.hpp"
 #include "sslam/track/map_messages.hpp"

@@ -3,7 +3,7 @@
 // the map from a survey instead of the first frames. What is not needed is left out by null models.
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <vector>
 
 #include "sslam/track/fallback.hpp"
 #include "sslam/track/keyframe_choice.hpp"
@@ -22,8 +22,8 @@ struct Gyroscope {
     frame.manhattan = {cam_from_world, Mat3<double>::Identity() * sigma * sigma};
     return {.axes_seen = 0, .trusted = true};
   }
-  [[nodiscard]] std::optional<SO3<double>> world_from_manhattan() const { return std::nullopt; }  // has none
-  void reset(const std::optional<SO3<double>>&) {}
+  [[nodiscard]] std::vector<SO3<double>> world_from_manhattan() const { return {}; }  // has none
+  void reset(const std::vector<SO3<double>>&) {}
 };
 static_assert(RotationStage<Gyroscope, double>);
 

@@ -23,7 +23,7 @@ Map<double> room_map() {
   Map<double> map = MapScene(options, path).make_map();
   map.erase_keyframe(4, 3);
   map.erase_point(2);
-  map.world_from_manhattan = SO3<double>::exp({0.1, -0.2, 0.3});
+  map.world_from_manhattan = {SO3<double>::exp({0.1, -0.2, 0.3})};
   return map;
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("A map comes back from its file as it was") {
   REQUIRE(again.keyframes[1].frame.points[5].descriptor == map.keyframes[1].frame.points[5].descriptor);
   REQUIRE(again.keyframes[1].neighbours.size() == map.keyframes[1].neighbours.size());
   REQUIRE(again.keyframes[2].manhattan->covariance == map.keyframes[2].manhattan->covariance);
-  REQUIRE(angle_between(*again.world_from_manhattan, *map.world_from_manhattan) < 1e-12);
+  REQUIRE(angle_between(again.world_from_manhattan.at(0), map.world_from_manhattan[0]) < 1e-12);
   for (std::size_t i = 0; i < map.lines.size(); ++i) {
     REQUIRE(again.lines[i].line.moment == map.lines[i].line.moment);
     REQUIRE(again.lines[i].observations.size() == map.lines[i].observations.size());

@@ -310,7 +310,7 @@ TEST_CASE("Lines keep to axes that do not stand along the world's") {
       deform<double>(map, moves);
       for (auto& kf : map.keyframes)
         kf.manhattan->cam_from_world = kf.manhattan->cam_from_world * turned.inverse();
-      map.world_from_manhattan = turned;
+      map.world_from_manhattan = {turned};
     }
     REQUIRE(improved(MapAdjustment<double>().optimise(map, 11)));
     return std::count_if(map.lines.begin(), map.lines.end(),

@@ -71,7 +71,7 @@ template <Scalar S>
 
 [[nodiscard]] inline Map<float> to_float(const Map<double>& map) {
   Map<float> out;
-  out.world_from_manhattan = map.world_from_manhattan->cast<float>();
+  for (const auto& frame : map.world_from_manhattan) out.world_from_manhattan.push_back(frame.cast<float>());
   for (const auto& p : map.points) out.add_point(p.position.cast<float>(), p.first_keyframe);
   for (const auto& l : map.lines) {
     const auto id =

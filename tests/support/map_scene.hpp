@@ -55,7 +55,7 @@ class MapScene {
   // Every landmark, seen by no keyframe yet.
   [[nodiscard]] Map<double> make_landmarks() const {
     Map<double> map;
-    map.world_from_manhattan.emplace();
+    map.world_from_manhattan.emplace_back();
     for (const auto& p : points) map.add_point(p, 0);
     for (const auto& l : lines) {
       const LandmarkId id = map.add_line(Line3<double>::from_points(l.start, l.end), l.start, l.end, 0);

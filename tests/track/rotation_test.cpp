@@ -51,7 +51,7 @@ TEST_CASE("What the normals of a plane get wrong together is not averaged away")
     frame.frame.lines.clear();
     frame.line_axes.clear();
     ManhattanRotation<double> stage;
-    stage.reset(SO3<double>());
+    stage.reset({SO3<double>()});
     const auto answer = stage.rotate(frame, simulation.truth(0).rotation, true);
     CHECK(answer.axes_seen >= 2);
     CHECK(!answer.trusted);
@@ -70,7 +70,7 @@ TEST_CASE("Lines decide where normals are known to be off") {
     for (double* sum : {&told, &untold}) {
       TrackedFrame<double> frame = frame_with_normals(simulation, 5, sum == &told ? 5 : 0, random);
       ManhattanRotation<double> stage;
-      stage.reset(SO3<double>());
+      stage.reset({SO3<double>()});
       CHECK(stage.rotate(frame, simulation.truth(0).rotation, true).trusted);
       REQUIRE(frame.manhattan);
       *sum += angle_between(frame.manhattan->cam_from_world, simulation.truth(0).rotation);
@@ -78,4 +78,30 @@ TEST_CASE("Lines decide where normals are known to be off") {
   }
   CHECK(told / 10 < radians(1.0));
   CHECK(told < untold);
+}
+
+TEST_CASE("A second Manhattan frame gives the same world's rotation, and is known again") {
+  const SO3<double> wing = SO3<double>::exp(Vec3<double>(0, radians(35.0), 0));
+  ManhattanRotation<double> stage;
+  stage.reset({SO3<double>()});
+  Random random(5);
+  // What the camera sees while it turns: the first frame, the wing, the first, the wing.
+  int step = 0;
+  for (const bool in_wing : {false, true, false, true})
+    for (int i = 0; i < 8; ++i, ++step) {
+      const SO3<double> cam_from_world = SO3<double>::exp(Vec3<double>(0.1, 0.02 * step, -0.05));
+      TrackedFrame<double> frame;
+      Frame<double> seen;
+      seen.pinhole = Pinhole<double>{500, 500, 320, 240};
+      add_biased_planes(seen.normals, in_wing ? cam_from_world * wing : cam_from_world, 0, random);
+      frame.adopt(seen);
+      const auto answer = stage.rotate(frame, cam_from_world, true);
+      const bool new_to_it = step >= 8 && step < 10;  // believed at the third sighting
+      CHECK(answer.trusted == !new_to_it);
+      REQUIRE(frame.manhattan.has_value() == !new_to_it);
+      if (new_to_it) continue;
+      CHECK(frame.manhattan_frame == (in_wing ? 1U : 0U));
+      CHECK(angle_between(frame.manhattan->cam_from_world, cam_from_world) < radians(0.5));
+    }
+  CHECK(stage.world_from_manhattan().size() == 2);
 }

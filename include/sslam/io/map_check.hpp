@@ -18,6 +18,7 @@ inline void check_map(const Map<double>& map) {
   const auto inside = [](std::int32_t id, std::size_t size) {
     return id >= 0 && static_cast<std::size_t>(id) < size;
   };
+  const int axes = 3 * static_cast<int>(map.world_from_manhattan.size());
   demand(!map.keyframes.empty() && map.keyframes.front().alive());
   for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
     const Keyframe<double>& kf = map.keyframes[k];
@@ -32,7 +33,7 @@ inline void check_map(const Map<double>& map) {
     demand(kf.point_landmarks.size() == kf.frame.points.size());
     demand(kf.line_landmarks.size() == kf.frame.lines.size());
     demand(kf.line_axes.empty() || kf.line_axes.size() == kf.frame.lines.size());
-    for (const std::int8_t axis : kf.line_axes) demand(axis >= kNone && axis < 3);
+    for (const std::int8_t axis : kf.line_axes) demand(axis >= kNone && axis < axes);
     for (const LandmarkId id : kf.point_landmarks) demand(id == kNone || inside(id, map.points.size()));
     for (const LandmarkId id : kf.line_landmarks) demand(id == kNone || inside(id, map.lines.size()));
     for (const Neighbour& n : kf.neighbours) demand(inside(n.keyframe, map.keyframes.size()));
@@ -46,7 +47,7 @@ inline void check_map(const Map<double>& map) {
   check_landmarks(map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
   check_landmarks(map.lines, [](const Keyframe<double>& kf) { return kf.frame.lines.size(); });
   for (const auto& p : map.points) demand(p.position.allFinite());
-  for (const auto& l : map.lines) demand(l.line.moment.allFinite() && l.axis >= kNone && l.axis < 3);
+  for (const auto& l : map.lines) demand(l.line.moment.allFinite() && l.axis >= kNone && l.axis < axes);
 }
 
 }  // namespace sslam::io

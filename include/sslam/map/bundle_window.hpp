@@ -140,8 +140,6 @@ class BundleWindow {
   }
 
   void add_lines(const Map<S>& map, const BundleWindowOptions<S>& options) {
-    const bool known = options.manhattan && map.world_from_manhattan;
-    const Mat3<S> axes = known ? map.world_from_manhattan->matrix() : Mat3<S>(Mat3<S>::Zero());
     std::erase_if(lines, [&](LandmarkId id) {
       const LineLandmark<S>& landmark = map.lines[map.index(id)];
       const auto first = graph.line_edges.size();
@@ -156,7 +154,7 @@ class BundleWindow {
         return true;
       }
       graph.lines.push_back({landmark.line, to_int(first), to_int(graph.line_edges.size()), std::nullopt});
-      if (known && landmark.axis != kNone) graph.lines.back().axis = axes.col(landmark.axis);
+      if (options.manhattan && landmark.axis != kNone) graph.lines.back().axis = map.axis(landmark.axis);
       return false;
     });
   }

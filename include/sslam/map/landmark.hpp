@@ -14,6 +14,11 @@ using KeyframeId = std::int32_t;
 using LandmarkId = std::int32_t;
 inline constexpr std::int32_t kNone = -1;
 
+// The axis of its own Manhattan frame, 0, 1 or 2, that a number of Map::axis stands for; kNone for none.
+[[nodiscard]] constexpr std::int8_t axis_in_frame(std::int8_t number) noexcept {
+  return static_cast<std::int8_t>(number == kNone ? kNone : number % 3);
+}
+
 struct Observation {
   KeyframeId keyframe = kNone;
   std::int32_t feature = kNone;  // index into the keyframe's points or lines
@@ -40,7 +45,7 @@ template <Scalar S>
 struct LineLandmark : LandmarkCommon {
   Line3<S> line;             // world
   Vec3<S> start, end;        // world, on the line: the part that has been seen
-  std::int8_t axis = kNone;  // Manhattan axis that it follows, or kNone
+  std::int8_t axis = kNone;  // Manhattan axis that it follows, as Map::axis counts them, or kNone
 };
 
 }  // namespace sslam

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,9 +20,14 @@ class Map {
   std::vector<Keyframe<S>> keyframes;
   std::vector<PointLandmark<S>> points;
   std::vector<LineLandmark<S>> lines;
-  std::optional<SO3<S>> world_from_manhattan;  // how the axes of the room stand in the world, once known
+  std::vector<SO3<S>> world_from_manhattan;  // how the Manhattan frames that are known stand in the world
 
   [[nodiscard]] bool empty() const noexcept { return keyframes.empty(); }
+
+  // Direction in the world of a Manhattan axis: they are numbered through the frames, three of each.
+  [[nodiscard]] Vec3<S> axis(std::int8_t number) const {
+    return world_from_manhattan[index(number / 3)].matrix().col(number % 3);
+  }
 
   // Takes the keyframe over, gives it its id, and enters it in the landmarks that it already observes.
   KeyframeId add_keyframe(Keyframe<S> keyframe) {

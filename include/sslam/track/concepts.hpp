@@ -4,7 +4,7 @@
 #pragma once
 
 #include <concepts>
-#include <optional>
+#include <vector>
 
 #include "sslam/track/loop_closing.hpp"
 #include "sslam/track/map_change.hpp"
@@ -17,9 +17,9 @@ namespace sslam {
 // Estimates the frame's rotation from structure alone, without drift.
 template <class T, class S>
 concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& predicted, bool mapped,
-                                 const std::optional<SO3<S>>& known) {
+                                 const std::vector<SO3<S>>& known) {
   { stage.rotate(frame, predicted, mapped) } -> std::same_as<RotationAnswer<S>>;
-  { stage.world_from_manhattan() } -> std::convertible_to<std::optional<SO3<S>>>;
+  { stage.world_from_manhattan() } -> std::convertible_to<std::vector<SO3<S>>>;
   stage.reset(known);
 };
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "sslam/map/map.hpp"
@@ -28,7 +27,7 @@ struct KeyframePost {
   S median_depth = 0;
   S scale = 1;            // of the tracker's lengths there, as MapEdition::scales has it
   std::size_t known = 0;  // keyframes of the edition that the tracker's landmark ids are from
-  std::optional<SO3<S>> world_from_manhattan;
+  std::vector<SO3<S>> world_from_manhattan;
   std::vector<Sightings> points, lines;
 };
 

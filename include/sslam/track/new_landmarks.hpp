@@ -164,11 +164,8 @@ class NewLandmarks {
   [[nodiscard]] LineTriangulation<S> triangulate(const Map<S>& map, std::int8_t axis_a, std::int8_t axis_b,
                                                  std::span<const LineView<S>> views) const {
     const auto answer = triangulate_line<S>(views, line_options());
-    if (answer.status != Status::kLowParallax || axis_a == kNone || axis_a != axis_b ||
-        !map.world_from_manhattan)
-      return answer;
-    const Vec3<S> direction = map.world_from_manhattan->matrix().col(axis_a);
-    return triangulate_line_along<S>(views, direction, line_options());
+    if (answer.status != Status::kLowParallax || axis_a == kNone || axis_a != axis_b) return answer;
+    return triangulate_line_along<S>(views, map.axis(axis_a), line_options());
   }
 
   [[nodiscard]] bool plausible_depth(const Keyframe<S>& keyframe, const Vec3<S>& point,

@@ -59,7 +59,6 @@ class Pipeline {
       backfill.keep(*current_);
     else
       backfill.clear();
-    map_.world_from_manhattan = rotation.world_from_manhattan();
     return result;
   }
 
@@ -89,11 +88,9 @@ class Pipeline {
   void initialise(TrackResult<S>& result) {
     result.state = State::kInitialising;
     const SO3<S> predicted = last_->cam_from_world.rotation;
-    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, false);
-    result.axes_seen = answer.axes_seen;
+    const RotationAnswer<S> answer = rotate(predicted, result);
     const SO3<S>& rotation_now = answer.trusted ? current_->manhattan->cam_from_world : predicted;
     current_->cam_from_world = {rotation_now, Vec3<S>::Zero()};
-    timer.end(Stage::kRotation);
     result.reason = initialisation.start(*current_, map_);
     timer.end(Stage::kInitialisation);
     if (result.reason != Reason::kFine) return;
@@ -159,7 +156,8 @@ class Pipeline {
   }
 
   RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
-    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, true);
+    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, !map_.empty());
+    map_.world_from_manhattan = rotation.world_from_manhattan();
     result.axes_seen = answer.axes_seen;
     timer.end(Stage::kRotation);
     return answer;

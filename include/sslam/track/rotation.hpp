@@ -2,12 +2,14 @@
 // The rotation stage: where the Manhattan frame is seen, it gives each frame's rotation without drift.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "sslam/manhattan/rotation.hpp"
 #include "sslam/manhattan/search.hpp"
+#include "sslam/track/manhattan_frames.hpp"
 #include "sslam/track/tracked_frame.hpp"
 
 namespace sslam {
@@ -21,42 +23,35 @@ struct RotationAnswer {
 template <Scalar S>
 class ManhattanRotation {
  public:
-  SearchOptions<S> search;  // of the first frame; its `rotation` options serve every later one
+  SearchOptions<S> search;  // of a frame that is not known yet; its `rotation` options serve every later one
+  ManhattanFrames<S> frames;
   std::uint64_t seed = 1;
   S squareness = radians(S(0.5));  // how far walls and edges stand from right angles: floor of every sigma
   S max_sigma = radians(S(1.5));   // largest standard deviation, about any axis, of a trusted rotation
-  int confirmations = 3;        // frames in a row that must agree before a late Manhattan frame is believed
-  S agreement = radians(S(2));  // between them
 
   // Estimates the frame's rotation near the prediction and leaves it, with the axes of its lines, in the
   // frame. `mapped` says whether the world is already fixed: before, the first Manhattan frame becomes the
   // world.
   RotationAnswer<S> rotate(TrackedFrame<S>& frame, const SO3<S>& predicted_cam_from_world, bool mapped) {
     gather_votes(frame.frame);
-    const auto& n = frame.frame.normals;
-    const NormalView<float> normals{n.x.data(), n.y.data(), n.z.data(), n.weight.data(), n.size()};
+    predicted_ = predicted_cam_from_world;
     frame.line_axes.assign(frame.frame.lines.size(), kNone);
-    SearchOptions<S> options = search;
-    options.rotation = search.rotation.with_plane_sigma(static_cast<S>(n.plane_sigma));
-    ManhattanEstimate<S> estimate;
-    if (world_from_manhattan_) {
-      const ManhattanPrior<S> prior{predicted_cam_from_world * *world_from_manhattan_};
-      estimate = track_manhattan<S>(normals, votes_, prior, options.rotation, frame.line_axes);
-    } else {
-      estimate = find(normals, options, predicted_cam_from_world, mapped, frame);
-    }
-    const bool seen = usable(estimate.status) || estimate.status == Status::kDegenerate;
-    if (!seen || !world_from_manhattan_) return {};
-    return answer(estimate, frame);
+    frame.manhattan.reset();
+    std::optional<std::size_t> index = track(frame);
+    if (!index && !usable(estimate_.status) && !degenerate()) index = look_around(frame, mapped);
+    if (index) return answer(*index, frame);
+    std::fill(frame.line_axes.begin(), frame.line_axes.end(), std::int8_t{kNone});
+    return {usable(estimate_.status) ? estimate_.axes_seen : 0};
   }
 
-  [[nodiscard]] const std::optional<SO3<S>>& world_from_manhattan() const noexcept {
-    return world_from_manhattan_;
+  // One for each Manhattan frame.
+  [[nodiscard]] const std::vector<SO3<S>>& world_from_manhattan() const noexcept {
+    return frames.world_from_manhattan();
   }
-  // Goes on with the Manhattan frame of a map, or with none.
-  void reset(const std::optional<SO3<S>>& world_from_manhattan) {
-    world_from_manhattan_ = world_from_manhattan;
-    candidate_.reset();
+  // Goes on with the Manhattan frames of a map, or with none.
+  void reset(const std::vector<SO3<S>>& world_from_manhattan) {
+    frames.reset(world_from_manhattan);
+    active_ = 0;
   }
 
  private:
@@ -64,52 +59,88 @@ class ManhattanRotation {
     votes_.clear();
     for (const LineFeature<S>& line : frame.lines)
       votes_.push_back(line_vote(line.segment, frame.pinhole, line.sigma));
+    const auto& n = frame.normals;
+    normals_ = {n.x.data(), n.y.data(), n.z.data(), n.weight.data(), n.size()};
+    options_ = search;
+    options_.rotation = search.rotation.with_plane_sigma(static_cast<S>(n.plane_sigma));
   }
 
-  ManhattanEstimate<S> find(const NormalView<float>& normals, const SearchOptions<S>& options,
-                            const SO3<S>& predicted, bool mapped, TrackedFrame<S>& frame) {
-    ManhattanEstimate<S> estimate = find_manhattan<S>(normals, votes_, options, seed, frame.line_axes);
-    if (!usable(estimate.status) || estimate.axes_seen < 2) {
-      candidate_.reset();
-      return estimate;
+  // Near a frame that is known: the one seen last, or else another.
+  [[nodiscard]] std::optional<std::size_t> track(TrackedFrame<S>& frame) {
+    estimate_ = {};
+    const std::size_t count = frames.world_from_manhattan().size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t index = (active_ + i) % count;
+      track(index, frame);
+      if (degenerate()) return index;  // too little is seen to tell it from another
+      if (usable(estimate_.status)) return name(frame);
     }
-    if (!mapped) {
-      world_from_manhattan_ = SO3<S>();
-      return estimate;
-    }
-    const SO3<S> world_from_manhattan = predicted.inverse() * estimate.cam_from_manhattan;
-    const SO3<S> named =
-        candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
-    if (candidate_ && angle_between(named, *candidate_) < agreement) {
-      if (++agreed_ >= confirmations) world_from_manhattan_ = named;
-    } else {
-      candidate_ = named;
-      agreed_ = 1;
-    }
-    return estimate;
+    return std::nullopt;
   }
 
-  RotationAnswer<S> answer(const ManhattanEstimate<S>& estimate, TrackedFrame<S>& frame) const {
+  void track(std::size_t index, TrackedFrame<S>& frame) {
+    const ManhattanPrior<S> prior{predicted_ * frames.world_from_manhattan()[index]};
+    estimate_ = track_manhattan<S>(normals_, votes_, prior, options_.rotation, frame.line_axes);
+  }
+
+  // Nothing is seen near the frames that are known, or none is known.
+  [[nodiscard]] std::optional<std::size_t> look_around(TrackedFrame<S>& frame, bool mapped) {
+    estimate_ = find_manhattan<S>(normals_, votes_, options_, seed, frame.line_axes);
+    if (!usable(estimate_.status) || estimate_.axes_seen < 2) {
+      frames.see_nothing();
+      return std::nullopt;
+    }
+    if (mapped || !frames.empty()) return name(frame);
+    frames.begin();
+    return 0;
+  }
+
+  // Which frame the estimate shows; it is then estimated by the names that frame's axes have.
+  [[nodiscard]] std::optional<std::size_t> name(TrackedFrame<S>& frame) {
+    const SO3<S> world_from_manhattan = predicted_.inverse() * estimate_.cam_from_manhattan;
+    const std::optional<std::size_t> index = frames.which(world_from_manhattan);
+    if (index) {
+      const SO3<S>& known = frames.world_from_manhattan()[*index];
+      if (closest_naming(world_from_manhattan, known).matrix() != world_from_manhattan.matrix())
+        track(*index, frame);
+      return usable(estimate_.status) || degenerate() ? index : std::nullopt;
+    }
+    if (!frames.see_unknown(world_from_manhattan)) return std::nullopt;
+    return frames.world_from_manhattan().size() - 1;
+  }
+
+  RotationAnswer<S> answer(std::size_t index, TrackedFrame<S>& frame) {
+    active_ = index;
+    frames.see(index, predicted_.inverse() * estimate_.cam_from_manhattan);
+    for (std::int8_t& axis : frame.line_axes) axis = frames.number(index, axis);
     RotationObservation<S> observation;
-    observation.cam_from_world = estimate.cam_from_manhattan * world_from_manhattan_->inverse();
-    observation.covariance = estimate.covariance + squareness * squareness * Mat3<S>::Identity();
+    observation.cam_from_world =
+        estimate_.cam_from_manhattan * frames.world_from_manhattan()[index].inverse();
+    observation.covariance = estimate_.covariance + squareness * squareness * Mat3<S>::Identity();
     frame.manhattan = observation;
+    frame.manhattan_frame = index;
     const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(observation.covariance, Eigen::EigenvaluesOnly);
-    return {estimate.axes_seen, std::sqrt(eigen.eigenvalues().z()) < max_sigma};
+    return {estimate_.axes_seen, std::sqrt(eigen.eigenvalues().z()) < max_sigma};
   }
 
+  [[nodiscard]] bool degenerate() const noexcept { return estimate_.status == Status::kDegenerate; }
+
+  // Of the frame in hand.
+  SO3<S> predicted_;
+  NormalView<float> normals_;
   std::vector<LineVote<S>> votes_;
-  std::optional<SO3<S>> world_from_manhattan_;
-  std::optional<SO3<S>> candidate_;  // of a late Manhattan frame, world from Manhattan
-  int agreed_ = 0;
+  SearchOptions<S> options_;
+  ManhattanEstimate<S> estimate_;
+
+  std::size_t active_ = 0;  // the Manhattan frame that was seen last
 };
 
 // No Manhattan world: every frame takes the fallback.
 template <Scalar S>
 struct NoRotation {
   RotationAnswer<S> rotate(TrackedFrame<S>&, const SO3<S>&, bool) { return {}; }
-  [[nodiscard]] std::optional<SO3<S>> world_from_manhattan() const noexcept { return std::nullopt; }
-  void reset(const std::optional<SO3<S>>&) {}
+  [[nodiscard]] std::vector<SO3<S>> world_from_manhattan() const { return {}; }
+  void reset(const std::vector<SO3<S>>&) {}
 };
 
 }  // namespace sslam

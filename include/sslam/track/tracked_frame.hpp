@@ -16,8 +16,9 @@ struct TrackedFrame {
   FeatureGrid<S> grid;                      // over frame.points
   std::vector<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
   std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
-  std::vector<std::int8_t> line_axes;       // Manhattan axis of each line, kNone where there is none
+  std::vector<std::int8_t> line_axes;       // Manhattan axis of each line (see Map::axis), or kNone
   std::optional<RotationObservation<S>> manhattan;
+  std::size_t manhattan_frame = 0;  // of the map's, that this rotation comes from
   SE3<S> cam_from_world;
 
   // Takes over the features by swapping, so that both sides keep their buffers.

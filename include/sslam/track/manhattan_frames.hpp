@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Manhattan frames of a world: a building may have several, as where a wing stands at an angle. They are
+// told apart by how they stand in the world, remembered, and known again when they come back into view.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "sslam/manhattan/cube.hpp"
+#include "sslam/map/landmark.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class ManhattanFrames {
+ public:
+  int confirmations = 3;          // sightings in a row that make one believed
+  S agreement = radians(S(2));    // between them
+  S told_apart = radians(S(10));  // least angle between two frames, whatever their axes are called
+  std::size_t most = 8;           // that are remembered; 1: the first frame of the world is its only one
+
+  [[nodiscard]] bool empty() const noexcept { return known_.empty(); }
+  [[nodiscard]] const std::vector<SO3<S>>& world_from_manhattan() const noexcept { return known_; }
+
+  // Goes on with the frames of a map, or with none.
+  void reset(const std::vector<SO3<S>>& world_from_manhattan) {
+    known_ = world_from_manhattan;
+    last_.reset();
+    candidate_.reset();
+  }
+
+  // The world is not fixed yet: this frame becomes its axes.
+  void begin() { reset({SO3<S>()}); }
+
+  // The number by which the map knows an axis (0, 1, 2) of a frame; see Map::axis. Frames that share an axis,
+  // as two wings share the vertical, share its number.
+  [[nodiscard]] std::int8_t number(std::size_t index, std::int8_t axis) const {
+    if (axis == kNone) return kNone;
+    const Vec3<S> direction = known_[index].matrix().col(axis);
+    for (std::size_t i = 0; i < index; ++i)
+      for (std::int8_t a = 0; a < 3; ++a)
+        if (std::abs(direction.dot(known_[i].matrix().col(a))) > std::cos(agreement)) return number(i, a);
+    return static_cast<std::int8_t>(3 * index + static_cast<std::size_t>(axis));
+  }
+
+  // Which of the frames one is that stands in the world like this. It is the one that was seen last as long
+  // as it has not jumped since: poses that turn, as in a map that is wrong, do not make it another. After a
+  // jump it is the nearest, if that is near enough.
+  [[nodiscard]] std::optional<std::size_t> which(const SO3<S>& world_from_manhattan) const {
+    if (last_ && angle_between_frames(world_from_manhattan, last_->world_from_manhattan) < agreement)
+      return last_->index;
+    std::optional<std::size_t> nearest;
+    S least = most > 1 ? told_apart : std::numeric_limits<S>::max();
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      const S angle = angle_between_frames(world_from_manhattan, known_[i]);
+      if (angle < least) {
+        least = angle;
+        nearest = i;
+      }
+    }
+    return nearest;
+  }
+
+  void see(std::size_t index, const SO3<S>& world_from_manhattan) {
+    last_ = Sighting{index, world_from_manhattan};
+    candidate_.reset();
+  }
+
+  void see_nothing() noexcept {
+    last_.reset();
+    candidate_.reset();
+  }
+
+  // A frame that is none of those known. It becomes one, and true is answered, once it has been met often
+  // enough in a row.
+  bool see_unknown(const SO3<S>& world_from_manhattan) {
+    last_.reset();
+    if (known_.size() >= most) return false;
+    const SO3<S> named =
+        candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
+    if (!candidate_ || angle_between(named, *candidate_) >= agreement) {
+      candidate_ = named;
+      agreed_ = 1;
+      return false;
+    }
+    ++agreed_;
+    const Vec3<S> off = (candidate_->inverse() * named).log();
+    candidate_ = *candidate_ * SO3<S>::exp(off / static_cast<S>(agreed_));  // their mean
+    if (agreed_ < confirmations) return false;
+    known_.push_back(*candidate_);
+    candidate_.reset();
+    return true;
+  }
+
+ private:
+  struct Sighting {
+    std::size_t index;
+    SO3<S> world_from_manhattan;
+  };
+
+  std::vector<SO3<S>> known_;
+  std::optional<Sighting> last_;     // what the last frame showed
+  std::optional<SO3<S>> candidate_;  // for another frame
+  int agreed_ = 0;
+};
+
+}  // namespace sslam
