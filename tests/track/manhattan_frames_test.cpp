@@ -66,6 +66,8 @@ TEST_CASE("Manhattan frames: one that turns slowly stays what it is, one that ju
   CHECK(frames.which(heading(24.5)) == std::size_t{0});
   frames.see_nothing();
   CHECK_FALSE(frames.which(heading(24.5)));
+  for (int i = 0; i < 6; ++i)
+    CHECK_FALSE(frames.see_unknown(heading(24.5)));  // the poses have turned, not the room
 }
 
 TEST_CASE("Manhattan frames: a shared axis has one number") {

@@ -29,8 +29,8 @@ class ManhattanFrames {
   // Goes on with the frames of a map, or with none.
   void reset(const std::vector<SO3<S>>& world_from_manhattan) {
     known_ = world_from_manhattan;
-    last_.reset();
-    candidate_.reset();
+    see_nothing();
+    turned_ = false;
   }
 
   // The world is not fixed yet: this frame becomes its axes.
@@ -67,6 +67,7 @@ class ManhattanFrames {
 
   void see(std::size_t index, const SO3<S>& world_from_manhattan) {
     last_ = Sighting{index, world_from_manhattan};
+    turned_ = angle_between_frames(world_from_manhattan, known_[index]) > told_apart / 2;
     candidate_.reset();
   }
 
@@ -76,10 +77,10 @@ class ManhattanFrames {
   }
 
   // A frame that is none of those known. It becomes one, and true is answered, once it has been met often
-  // enough in a row.
+  // enough in a row, by poses that stood square to the one before.
   bool see_unknown(const SO3<S>& world_from_manhattan) {
     last_.reset();
-    if (known_.size() >= most) return false;
+    if (known_.size() >= most || turned_) return false;
     const SO3<S> named =
         candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
     if (!candidate_ || angle_between(named, *candidate_) >= agreement) {
@@ -103,7 +104,8 @@ class ManhattanFrames {
   };
 
   std::vector<SO3<S>> known_;
-  std::optional<Sighting> last_;     // what the last frame showed
+  std::optional<Sighting> last_;     // what the last image showed
+  bool turned_ = false;              // the poses had turned away from the frame that was seen last
   std::optional<SO3<S>> candidate_;  // for another frame
   int agreed_ = 0;
 };
