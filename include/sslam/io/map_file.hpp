@@ -20,7 +20,7 @@ namespace sslam::io {
 namespace map_file_detail {
 
 inline constexpr std::string_view kMagic = "SSLAMMAP";
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 
 struct Header {
   std::uint32_t version = kVersion;

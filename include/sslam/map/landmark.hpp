@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Landmarks: points and lines of the map, each with the keyframe features that observe it.
+// Landmarks: points and lines of the map, each with the keyframe features that observe it, and the planes
+// that they lie on.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 
 #include "sslam/core/descriptor.hpp"
 #include "sslam/geometry/line3.hpp"
+#include "sslam/geometry/plane3.hpp"
 
 namespace sslam {
 
@@ -26,6 +28,7 @@ struct LandmarkCommon {
   KeyframeId first_keyframe = kNone;  // that created it
   std::int32_t visible = 0;           // frames in which it should have been seen
   std::int32_t found = 0;             // frames in which it was
+  LandmarkId plane = kNone;           // that it lies on
   bool alive = true;                  // false: culled or fused; a later landmark may take its id
 };
 
@@ -41,6 +44,15 @@ struct LineLandmark : LandmarkCommon {
   Line3<S> line;             // world
   Vec3<S> start, end;        // world, on the line: the part that has been seen
   std::int8_t axis = kNone;  // Manhattan axis that it follows, or kNone
+};
+
+// Its members say where it is: points and lines whose `plane` it is. No feature observes it.
+template <Scalar S>
+struct PlaneLandmark {
+  Plane3<S> plane;           // world
+  std::int8_t axis = kNone;  // Manhattan axis that it is normal to, or kNone
+  std::int32_t support = 0;  // members when they were last counted
+  bool alive = true;         // false: a later plane may take its id
 };
 
 }  // namespace sslam

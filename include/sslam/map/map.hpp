@@ -21,6 +21,7 @@ class Map {
   std::vector<Keyframe<S>> keyframes;
   std::vector<PointLandmark<S>> points;
   std::vector<LineLandmark<S>> lines;
+  std::vector<PlaneLandmark<S>> planes;
   std::optional<SO3<S>> world_from_manhattan;  // how the axes of the room stand in the world, once known
 
   [[nodiscard]] bool empty() const noexcept { return keyframes.empty(); }
@@ -61,6 +62,10 @@ class Map {
     return free_lines_.settle(lines, std::move(landmark));
   }
 
+  LandmarkId add_plane(const Plane3<S>& plane, std::int8_t axis) {
+    return free_planes_.settle(planes, PlaneLandmark<S>{plane, axis, 0, true});
+  }
+
   void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
     Keyframe<S>& kf = keyframes[index(keyframe)];
     kf.point_landmarks[feature] = id;
@@ -81,10 +86,21 @@ class Map {
   void erase_point(LandmarkId id) { erase(points, free_points_, id, &Keyframe<S>::point_landmarks); }
   void erase_line(LandmarkId id) { erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks); }
 
+  // Its members lie on none afterwards.
+  void erase_plane(LandmarkId id) {
+    planes[index(id)].alive = false;
+    for (auto& point : points)
+      if (point.plane == id) point.plane = kNone;
+    for (auto& line : lines)
+      if (line.plane == id) line.plane = kNone;
+    free_planes_.add(id);
+  }
+
   // Finds the ids that can be given away in landmarks that were filled in from outside.
   void collect_free_ids() {
     free_points_.collect(points);
     free_lines_.collect(lines);
+    free_planes_.collect(planes);
   }
 
   // Withdraws one observation; a landmark left with fewer than two goes too.
@@ -186,6 +202,7 @@ class Map {
     }
     landmark.observations.clear();
     landmark.observations.shrink_to_fit();
+    landmark.plane = kNone;
     landmark.alive = false;
     free.add(id);
   }
@@ -211,6 +228,7 @@ class Map {
                        [&](const Observation& p) { return p.keyframe == o.keyframe; }))
         observe(o);
     }
+    if (landmarks[index(into)].plane == kNone) landmarks[index(into)].plane = landmarks[index(from)].plane;
     landmarks[index(into)].visible += landmarks[index(from)].visible;
     landmarks[index(into)].found += landmarks[index(from)].found;
   }
@@ -234,7 +252,7 @@ class Map {
                      [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
   }
 
-  FreeIds free_points_, free_lines_;
+  FreeIds free_points_, free_lines_, free_planes_;
   std::vector<std::int32_t> shared_;  // scratch of update_covisibility
 };
 
