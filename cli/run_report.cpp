@@ -177,6 +177,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"keyframes", outcome.keyframes.size()},
                   {"points", count_alive(outcome.map.points)},
                   {"lines", count_alive(outcome.map.lines)},
+                  {"planes", count_alive(outcome.map.planes)},
                   {"loops", count_loops(outcome)},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},

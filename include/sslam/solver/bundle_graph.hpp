@@ -119,7 +119,7 @@ struct BundleLosses {
   S axis = 2;                      // a line that does not follow its axis
   S axis_sigma = radians(S(0.5));  // squareness of real walls and edges
   S plane = 2;                     // a landmark that does not lie on its plane
-  S flatness = S(0.005);           // of real walls and of what hangs on them, over the scene depth
+  S flatness = S(0.01);            // of real walls and of what hangs on them, over the scene depth
   S scale_sigma = S(1e-3);         // of the held distance, as a part of it; it competes with nothing
 };
 

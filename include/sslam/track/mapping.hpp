@@ -42,8 +42,8 @@ class KeyframeMapping {
     culling.cull(map, id);
     creation.create(map, id, median_depth);
     fusion.fuse(map, id);
-    map.update_covisibility(id);
     planes.find(map, id, median_depth);
+    map.update_covisibility(id);
     optimiser.optimise(map, id);
     keyframe_culling.cull(map, id);
     frame.read_back(map.keyframes[map.index(id)]);
@@ -54,8 +54,8 @@ class KeyframeMapping {
   void begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
     const KeyframeId id = map.keyframes.back().id;
     creation.create(map, id, median_depth);
-    map.update_covisibility(id);
     planes.find(map, id, median_depth);
+    map.update_covisibility(id);
     optimiser.optimise(map, id);
     frame.read_back(map.keyframes[map.index(id)]);
   }

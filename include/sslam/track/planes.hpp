@@ -11,6 +11,7 @@
 #include "sslam/map/local_map.hpp"
 #include "sslam/map/plane_extent.hpp"
 #include "sslam/solver/offset_modes.hpp"
+#include "sslam/track/plane_points.hpp"
 
 namespace sslam {
 
@@ -44,6 +45,7 @@ template <Scalar S>
 class ManhattanPlanes {
  public:
   PlaneOptions<S> options;
+  PlanePoints<S> points;
 
   void find(Map<S>& map, KeyframeId id, S median_depth) {
     if (options.min_members == 0 || !map.world_from_manhattan) return;
@@ -56,6 +58,7 @@ class ManhattanPlanes {
       join(map, axis);
       while (add_plane(map, axis, axes.col(axis))) continue;
     }
+    points.create(map, id, median_depth);
   }
 
  private:
