@@ -44,6 +44,7 @@
 #include "sslam/solver/find_relative_pose.hpp"
 #include "sslam/solver/flow.hpp"
 #include "sslam/solver/flow_sample.hpp"
+#include "sslam/solver/landmark_elimination.hpp"
 #include "sslam/solver/levenberg_marquardt.hpp"
 #include "sslam/solver/line_problem.hpp"
 #include "sslam/solver/line_view.hpp"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ceres/numeric.hpp"
+#include "sslam/ceres/plane_costs.hpp"
 #include "sslam/core/random.hpp"
 #include "support/catch.hpp"
 

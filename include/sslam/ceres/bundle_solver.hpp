@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "sslam/ceres/cost_functions.hpp"
+#include "sslam/ceres/plane_costs.hpp"
 #include "sslam/solver/bundle_summary.hpp"
 
 namespace sslam {
