@@ -109,6 +109,8 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "of the members in the plane over the median scene depth");
     visit("planes.min_contrast", p.mapping.planes.options.min_contrast, Unit::kNumber,
           "members over what their surroundings make expect");
+    visit("planes.max_turn", p.mapping.planes.options.max_turn, Unit::kDegrees,
+          "between a keyframe's rotation and the Manhattan frame's, beyond which it finds none");
     visit("planes.few_landmarks", p.mapping.planes.points.few_landmarks, Unit::kNumber,
           "of a keyframe, below which planes give new points their depth; 0: never");
     visit("planes.flatness", p.mapping.optimiser.solver.options.losses.flatness, Unit::kNumber,

@@ -89,6 +89,13 @@ TEST_CASE("Planes can be left out, and wait for a Manhattan frame") {
   SECTION("no Manhattan frame") {
     map.world_from_manhattan.reset();
   }
+  SECTION("one that the keyframe does not see") {
+    map.keyframes[11].manhattan.reset();
+  }
+  SECTION("one that the keyframe does not agree with") {
+    map.keyframes[11].cam_from_world.rotation =
+        map.keyframes[11].cam_from_world.rotation.retract({0.05, 0, 0});
+  }
   planes.find(map, 11, kDepth);
   CHECK(count(map) == 0);
 }

@@ -39,6 +39,9 @@ struct PlaneOptions {
   S min_contrast = 3;              // members over what their surroundings make expect
   S reach = S(0.3);                // of a plane beyond its members
   std::size_t max_keyframes = 10;  // whose landmarks are looked at
+  // Between the keyframe's rotation and the one that the Manhattan frame gives it: beyond, or where it gives
+  // none, the walls here are not the frame's, and no plane is looked for.
+  S max_turn = radians(S(1));
 };
 
 template <Scalar S>
@@ -51,6 +54,10 @@ class ManhattanPlanes {
     if (options.min_members == 0 || !map.world_from_manhattan) return;
     depth_ = median_depth;
     settle(map);
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    if (!keyframe.manhattan || !(angle_between(keyframe.manhattan->cam_from_world,
+                                               keyframe.cam_from_world.rotation) < options.max_turn))
+      return;
     local_.gather_around(map, id, options.max_keyframes);
     const Mat3<S> axes = map.world_from_manhattan->matrix();
     for (std::int8_t axis = 0; axis < 3; ++axis) {
