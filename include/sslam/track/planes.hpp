@@ -36,12 +36,12 @@ struct PlaneOptions {
   S max_sigma = S(0.01);           // of a member along the normal: less sure landmarks prove no plane
   S max_tilt = radians(S(2));      // of a line against its plane
   S min_spread = S(0.12);          // standard deviation of the members in the plane, where they spread least
-  S min_contrast = 3;              // members over what their surroundings make expect
+  S min_contrast = 5;              // members over what their surroundings make expect
   S reach = S(0.3);                // of a plane beyond its members
   std::size_t max_keyframes = 10;  // whose landmarks are looked at
   // Between the keyframe's rotation and the one that the Manhattan frame gives it: beyond, or where it gives
   // none, the walls here are not the frame's, and no plane is looked for.
-  S max_turn = radians(S(1));
+  S max_turn = radians(S(0.5));
 };
 
 template <Scalar S>
