@@ -16,15 +16,21 @@ namespace {
 
 Map<double> landmarks_of(const Map<double>& map) {
   Map<double> seen;
-  for (const auto& point : map.points)
-    if (point.alive) seen.points.emplace_back().position = point.position;
+  for (const auto& point : map.points) {
+    if (!point.alive) continue;
+    auto& copy = seen.points.emplace_back();
+    copy.position = point.position;
+    copy.plane = point.plane;
+  }
   for (const auto& line : map.lines) {
     if (!line.alive) continue;
     auto& copy = seen.lines.emplace_back();
     copy.start = line.start;
     copy.end = line.end;
     copy.axis = line.axis;
+    copy.plane = line.plane;
   }
+  seen.planes = map.planes;
   return seen;
 }
 
@@ -88,6 +94,7 @@ nlohmann::ordered_json LiveRun::data() {
   run_.metrics["keyframes"] = run_.keyframes.size();
   run_.metrics["points"] = run_.map.points.size();
   run_.metrics["lines"] = run_.map.lines.size();
+  run_.metrics["planes"] = count_alive(run_.map.planes);
   run_.problems.clear();
   nlohmann::ordered_json data = report_data(run_);
   data["kind"] = "live";

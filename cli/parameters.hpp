@@ -102,6 +102,24 @@ void visit_parameters(Pipeline& p, Visit visit) {
     visit("mapping.redundant_share", p.mapping.keyframe_culling.redundant_share, Unit::kNumber,
           "of a keyframe's landmarks, seen well elsewhere: it is removed (over 1: never)");
   }
+  if constexpr (requires { p.mapping.planes.options; }) {
+    visit("planes.min_members", p.mapping.planes.options.min_members, Unit::kNumber,
+          "points and lines that make a plane; 0: none is looked for");
+    visit("planes.tolerance", p.mapping.planes.options.tolerance, Unit::kNumber,
+          "distance of a member from its plane over the median scene depth");
+    visit("planes.max_sigma", p.mapping.planes.options.max_sigma, Unit::kNumber,
+          "of a member along the plane's normal over the median scene depth");
+    visit("planes.min_spread", p.mapping.planes.options.min_spread, Unit::kNumber,
+          "of the members in the plane over the median scene depth");
+    visit("planes.min_contrast", p.mapping.planes.options.min_contrast, Unit::kNumber,
+          "members over what their surroundings make expect");
+    visit("planes.max_turn", p.mapping.planes.options.max_turn, Unit::kDegrees,
+          "between a keyframe's rotation and the Manhattan frame's, beyond which it finds none");
+    visit("planes.few_landmarks", p.mapping.planes.points.few_landmarks, Unit::kNumber,
+          "of a keyframe, below which planes give new points their depth; 0: never");
+    visit("planes.flatness", p.mapping.optimiser.solver.options.losses.flatness, Unit::kNumber,
+          "standard deviation of a member's distance from its plane over the median scene depth");
+  }
   if constexpr (requires { p.loops.detection; }) {
     visit("loops.candidates", p.loops.detection.places.most, Unit::kNumber,
           "places to compare a new keyframe with; 0: no loop is closed");

@@ -14,6 +14,7 @@
 #include "sslam/io/byte_archive.hpp"
 #include "sslam/io/comparison_view.hpp"
 #include "sslam/io/evaluation.hpp"
+#include "sslam/map/plane_extent.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -159,7 +160,22 @@ class DataMaker {
       axes.push_back(axis_in_frame(line.axis));
     }
     data_["points"] = floats(points);
+    add_planes();
     data_["lines"] = {{"ends", floats(lines)}, {"axes", packed<std::int8_t>("i8", axes)}};
+  }
+
+  // Each as the rectangle that its members cover.
+  void add_planes() {
+    std::vector<PlaneExtent<double>> extents;
+    gather_extents(run_.map, extents);
+    std::vector<double> corners, axes;
+    for (std::size_t p = 0; p < extents.size(); ++p) {
+      const PlaneLandmark<double>& plane = run_.map.planes[p];
+      if (!plane.alive || extents[p].places == 0) continue;
+      for (const Vec3<double>& corner : extents[p].corners(plane.plane)) append(corners, corner);
+      axes.push_back(axis_in_frame(plane.axis));
+    }
+    data_["planes"] = {{"corners", floats(corners)}, {"axes", packed<std::int8_t>("i8", axes)}};
   }
 
   // The ground truth in the map's world, and the error of each frame.

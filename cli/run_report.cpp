@@ -182,6 +182,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"keyframes_not_made", outcome.keyframes_not_made},
                   {"points", count_alive(outcome.map.points)},
                   {"lines", count_alive(outcome.map.lines)},
+                  {"planes", count_alive(outcome.map.planes)},
                   {"loops", count_loops(outcome)},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},

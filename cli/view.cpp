@@ -30,7 +30,8 @@ std::string map_page(const fs::path& file) {
   run.keyframes = keyframe_poses(run.map);
   run.metrics = {{"keyframes", run.keyframes.size()},
                  {"points", count_alive(run.map.points)},
-                 {"lines", count_alive(run.map.lines)}};
+                 {"lines", count_alive(run.map.lines)},
+                 {"planes", count_alive(run.map.planes)}};
   nlohmann::ordered_json data = report_data(run);
   data["kind"] = "map";
   return report_html(data, {});

@@ -125,7 +125,7 @@ const kKeys = [
   { keys: ["f", "F"], name: "F", does: "follow the camera", act: () => byId("follow")?.click() },
   { keys: ["r", "R"], name: "R", does: "reset the view", act: () => byId("reset")?.click() },
   { keys: ["t", "T"], name: "T", does: "light or dark", act: () => byId("theme").click() },
-  { keys: ["1", "2", "3", "4", "5", "6"], name: "1 to 6", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]:not([hidden])")[Number(event.key) - 1]?.click() },
+  { keys: ["1", "2", "3", "4", "5", "6", "7"], name: "1 to 7", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]:not([hidden])")[Number(event.key) - 1]?.click() },
 ];
 
 function listenToKeys() {

@@ -73,6 +73,7 @@ class Scene3D {
     const dots = this.material("points", () => new THREE.PointsMaterial({ size: 2, sizeAttenuation: false }));
     this.add("points", new THREE.Points(geometryOf(mixedPoints(run.points)), dots));
     this.addWide("lines", run.lines.ends, 2, true);
+    this.addPlanes(run.planes);
     this.pathRows = [];  // the later frame of each step of the path
     const steps = [];
     for (let row = 1; row < run.frames.count; ++row) {
@@ -87,6 +88,17 @@ class Scene3D {
     for (let i = 0; i < run.keyframes.length; i += 7) small.push(...frustumEnds(run.keyframes.subarray(i, i + 7), 0.6 * size));
     addPlain("keyframes", small);
     this.eye = addPlain("eye", frustumEnds([0, 0, 0, 0, 0, 0, 1], 1.6 * size));
+  }
+
+  // Translucent rectangles, two triangles each; they hide neither each other nor what is behind.
+  addPlanes({ corners, axes }) {
+    const positions = new Float32Array(18 * axes.length);
+    for (let i = 0; i < axes.length; ++i)
+      [0, 1, 2, 0, 2, 3].forEach((c, k) => positions.set(corners.subarray(12 * i + 3 * c, 12 * i + 3 * c + 3), 18 * i + 3 * k));
+    const geometry = geometryOf(positions).setAttribute("color", new THREE.BufferAttribute(new Float32Array(positions.length), 3));
+    const material = this.material("planes", () => new THREE.MeshBasicMaterial(
+      { vertexColors: true, transparent: true, opacity: 0.18, side: THREE.DoubleSide, depthWrite: false }));
+    this.add("planes", new THREE.Mesh(geometry, material));
   }
 
   // The run has grown.
@@ -122,6 +134,12 @@ class Scene3D {
       this.layers[name]?.material.color.copy(ink(from));
     const axes = [...kAxes, "none"].map(ink);
     this.paint("lines", run.lines.axes.length, (i) => axes[run.lines.axes[i]] ?? axes[3]);
+    const { color } = this.layers.planes.geometry.attributes;
+    run.planes.axes.forEach((axis, i) => {
+      const { r, g, b } = axes[axis] ?? axes[3];
+      for (let k = 6 * i; k < 6 * i + 6; ++k) color.setXYZ(k, r, g, b);
+    });
+    color.needsUpdate = true;
     const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
     this.paint("path", this.pathRows.length, (i) => states[run.state(this.pathRows[i])] ?? states.manhattan);
     this.showFrame();

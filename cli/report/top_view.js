@@ -109,6 +109,7 @@ class TopView {
 const kLayers = [
   { name: "points", label: "Points", ink: "points", there: () => run.points.length > 0 },
   { name: "lines", label: "Lines", ink: "", there: () => run.lines.axes.length > 0 },
+  { name: "planes", label: "Planes", ink: "", there: () => run.planes.axes.length > 0 && !byId("view").classList.contains("flat") },
   { name: "path", label: "Estimate", ink: "manhattan", there: () => run.trajectoryThere },
   { name: "truth", label: "Ground truth", ink: "truth", there: () => Boolean(run.truth) },
   { name: "keyframes", label: "Keyframes", ink: "accent", there: () => run.keyframes.length > 0 },

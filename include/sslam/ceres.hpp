@@ -7,3 +7,4 @@
 #include "sslam/ceres/global_bundle_adjustment.hpp"
 #include "sslam/ceres/local_bundle_adjustment.hpp"
 #include "sslam/ceres/manifolds.hpp"
+#include "sslam/ceres/plane_costs.hpp"

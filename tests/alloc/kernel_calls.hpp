@@ -5,6 +5,7 @@
 #include "sslam/geometry/nearest_rotation.hpp"
 #include "sslam/manhattan/search.hpp"
 #include "sslam/solver/find_relative_pose.hpp"
+#include "sslam/solver/plane_motion.hpp"
 #include "sslam/solver/translation.hpp"
 #include "support/room_frame.hpp"
 
@@ -19,7 +20,13 @@ class KernelCalls {
         axis_of_(room.votes.size()),
         match_inliers_(room.matches.size()),
         point_inliers_(room.points.size()),
-        line_inliers_(room.lines.size()) {}
+        line_inliers_(room.lines.size()) {
+    // As if every first ray met one wall.
+    for (const BearingMatch<S>& match : room.matches) {
+      const Vec3<S> seen = R_10_ * match.ray0 + match.ray0.z() * Vec3<S>(S(0.1), S(-0.05), S(0.02));
+      on_wall_.push_back({match.ray0, seen / seen.z(), match.sigma});
+    }
+  }
 
   // visit(name, call): call() does the work and says whether the kernel answered kOk.
   template <class Visit>
@@ -35,6 +42,9 @@ class KernelCalls {
       return usable(nearest_rotation<S>(S(0.9) * R_10_.matrix(), out));
     });
     visit("translation_from_rotation", [this] { return usable(translate(R_10_).status); });
+    visit("plane_motion", [this] {
+      return usable(plane_motion<S>(on_wall_, R_10_, Vec3<S>::UnitZ(), {}, 1, match_inliers_).status);
+    });
     visit("rotation_from_bearings",
           [this] { return rotation_from_bearings<S>(room_.matches, {}, 1, match_inliers_).inliers > 0; });
     visit("refine_relative_pose", [this] {
@@ -114,6 +124,7 @@ class KernelCalls {
 
   const RoomFrame<S>& room_;
   SO3<S> R_10_;
+  std::vector<BearingMatch<S>> on_wall_;
   std::vector<std::int8_t> axis_of_;
   std::vector<std::uint8_t> match_inliers_, point_inliers_, line_inliers_;
 };

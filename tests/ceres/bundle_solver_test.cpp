@@ -16,8 +16,9 @@ using namespace sslam;
 using namespace sslam::testing;
 
 // A graph with every kind of term; whole: of a whole map, else of a window with held keyframes around it.
-Map<double> make_map(MapScene& scene, bool whole, bool manhattan) {
+Map<double> make_map(MapScene& scene, bool whole, bool manhattan, bool planes) {
   Map<double> map = scene.make_map();
+  if (planes) scene.add_planes(map);
   perturb(scene, map, whole ? 0 : 5, radians(0.2), 0.01);
   if (!manhattan)
     for (auto& kf : map.keyframes) kf.manhattan.reset();
@@ -30,7 +31,8 @@ TEST_CASE("Ceres and the core's own solver come to the same optimum") {
   const bool whole = GENERATE(false, true);
   const bool manhattan = GENERATE(false, true);
   MapScene scene({.points = 1200, .lines = 300}, sweep(12, 0.25));
-  const Map<double> map = make_map(scene, whole, manhattan);
+  const bool planes = GENERATE(true, false);
+  const Map<double> map = make_map(scene, whole, manhattan, planes);
   BundleWindow<double> window;
   BundleWindowOptions<double> options;
   options.manhattan = manhattan;
@@ -46,6 +48,7 @@ TEST_CASE("Ceres and the core's own solver come to the same optimum") {
   BundleSolver<double> core_solver;
   core_solver.options.max_iterations = 100;
   core_solver.options.min_decrease = 1e-12;
+  REQUIRE(window.graph.planes.empty() != planes);
   const BundleSummary a = ceres_solver.solve(by_ceres), b = core_solver.solve(by_core);
   REQUIRE(improved(a));
   REQUIRE(improved(b));
@@ -57,6 +60,10 @@ TEST_CASE("Ceres and the core's own solver come to the same optimum") {
     const SE3<double>&p = by_ceres.views[v].cam_from_world, &q = by_core.views[v].cam_from_world;
     REQUIRE(angle_between(p.rotation, q.rotation) < radians(0.01));
     REQUIRE((p.inverse().translation - q.inverse().translation).norm() < 1e-3);
+  }
+  for (std::size_t p = 0; p < by_core.planes.size(); ++p) {
+    REQUIRE((by_ceres.planes[p].plane.normal - by_core.planes[p].plane.normal).norm() < 1e-4);
+    REQUIRE(std::abs(by_ceres.planes[p].plane.distance - by_core.planes[p].plane.distance) < 1e-3);
   }
 }
 
@@ -81,7 +88,7 @@ TEST_CASE("Local and global adjustment with Ceres bring a perturbed map back") {
 // there is the core's own solver.
 TEST_CASE("Ceres gives the same answer again but for rounding") {
   MapScene scene({.points = 600, .lines = 150}, sweep(12, 0.25));
-  const Map<double> map = make_map(scene, false, true);
+  const Map<double> map = make_map(scene, false, true, true);
   const int threads = GENERATE(1, 2);
   LocalBundleAdjustment used;
   used.solver.options.num_threads = threads;

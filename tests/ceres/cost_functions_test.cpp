@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ceres/numeric.hpp"
+#include "sslam/ceres/plane_costs.hpp"
 #include "sslam/core/random.hpp"
 #include "support/catch.hpp"
 
@@ -134,6 +135,57 @@ TEST_CASE("Ties have the derivatives that they claim") {
     const ScaleTieCost scale(random_point(random), 2, 1e-2);
     require_same(analytic_jacobian(scale, {pose_block(pose)}, 0, &manifold),
                  numeric_jacobian(scale, {pose_block(pose)}, 0, &manifold));
+  }
+}
+
+TEST_CASE("Ties to planes are the core's residuals in sigmas and their derivatives hold") {
+  Random random(8);
+  const LineManifold line_manifold;
+  const PlaneManifold plane_manifold;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Plane3<double> plane{random_point(random).normalized(), random.uniform(-2.0, 2.0)};
+    PlaneBlock stored;
+    store_plane(plane, stored.data());
+    const Vec3<double> x = random_point(random), y = random_point(random);
+    const auto line = Line3<double>::from_points(x, y);
+    const PointOnPlaneCost point_cost(0.02);
+    const LineOnPlaneCost line_cost(x, y, 0.02);
+    const std::vector<std::vector<double>> with_point{to_vector(stored), {x.x(), x.y(), x.z()}};
+    const std::vector<std::vector<double>> with_line{to_vector(stored), line_block(line)};
+    const double* pointers[] = {with_point[0].data(), with_point[1].data()};
+    double off = 0;
+    REQUIRE(point_cost.Evaluate(pointers, &off, nullptr));
+    REQUIRE(off == Approx(point_on_plane(plane, x).error[0] / 0.02));
+    pointers[1] = with_line[1].data();
+    Vec2<double> ends;
+    REQUIRE(line_cost.Evaluate(pointers, ends.data(), nullptr));
+    REQUIRE((ends - line_on_plane(plane, line, x, y).error / 0.02).norm() < 1e-9);
+    require_same(analytic_jacobian(point_cost, with_point, 0, &plane_manifold),
+                 numeric_jacobian(point_cost, with_point, 0, &plane_manifold));
+    require_same(analytic_jacobian(point_cost, with_point, 1, nullptr),
+                 numeric_jacobian(point_cost, with_point, 1, nullptr));
+    require_same(analytic_jacobian(line_cost, with_line, 0, &plane_manifold),
+                 numeric_jacobian(line_cost, with_line, 0, &plane_manifold));
+    require_same(analytic_jacobian(line_cost, with_line, 1, &line_manifold),
+                 numeric_jacobian(line_cost, with_line, 1, &line_manifold));
+    Mat<double, 4, 4> held = Mat<double, 4, 4>::Zero();
+    double squares = 0;
+    for (int i = 0; i < 5; ++i) {
+      const Vec3<double> member = random_point(random);
+      const Vec4<double> row(member.x(), member.y(), member.z(), -1);
+      held += row * row.transpose();
+      squares += std::pow(plane.offset(member) / 0.02, 2);
+    }
+    const PlaneHeldCost held_cost(held, 0.02);
+    Vec4<double> whitened;
+    pointers[0] = with_point[0].data();
+    REQUIRE(held_cost.Evaluate(pointers, whitened.data(), nullptr));
+    REQUIRE(whitened.squaredNorm() == Approx(squares));
+    require_same(analytic_jacobian(held_cost, {to_vector(stored)}, 0, &plane_manifold),
+                 numeric_jacobian(held_cost, {to_vector(stored)}, 0, &plane_manifold));
+    const PlaneAxisCost axis_cost(random_point(random).normalized(), 0.01);
+    require_same(analytic_jacobian(axis_cost, {to_vector(stored)}, 0, &plane_manifold),
+                 numeric_jacobian(axis_cost, {to_vector(stored)}, 0, &plane_manifold));
   }
 }
 

@@ -23,6 +23,9 @@ Map<double> room_map() {
   Map<double> map = MapScene(options, path).make_map();
   map.erase_keyframe(4, 3);
   map.erase_point(2);
+  const LandmarkId wall = map.add_plane({{0, 0, 1}, 3}, 2);
+  for (auto& p : map.points)
+    if (p.alive && p.position.z() == 3) p.plane = wall;
   map.world_from_manhattan = {SO3<double>::exp({0.1, -0.2, 0.3})};
   return map;
 }
@@ -43,6 +46,11 @@ TEST_CASE("A map comes back from its file as it was") {
   REQUIRE(again.keyframes[1].neighbours.size() == map.keyframes[1].neighbours.size());
   REQUIRE(again.keyframes[2].manhattan->covariance == map.keyframes[2].manhattan->covariance);
   REQUIRE(angle_between(again.world_from_manhattan.at(0), map.world_from_manhattan[0]) < 1e-12);
+  REQUIRE(again.planes.size() == 1);
+  REQUIRE(again.planes[0].plane.normal == map.planes[0].plane.normal);
+  REQUIRE(again.planes[0].plane.distance == 3);
+  REQUIRE(again.planes[0].axis == 2);
+  for (std::size_t i = 0; i < map.points.size(); ++i) REQUIRE(again.points[i].plane == map.points[i].plane);
   for (std::size_t i = 0; i < map.lines.size(); ++i) {
     REQUIRE(again.lines[i].line.moment == map.lines[i].line.moment);
     REQUIRE(again.lines[i].observations.size() == map.lines[i].observations.size());
@@ -80,7 +88,7 @@ TEST_CASE("What is wrong with a map file is said in one line with its name") {
   std::string other = text_of(path);
   other[8] = 7;
   folder.write("a.sslam", other);
-  REQUIRE(contains(why(), "a.sslam: has version 7; this sslam reads version 1"));
+  REQUIRE(contains(why(), "a.sslam: has version 7; this sslam reads version 2"));
   REQUIRE(is_one_line(why()));
 }
 
@@ -104,5 +112,10 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
   refused([](auto& m) { m.keyframes[3].heir = 4; });  // a ring: 4 went to 3
   refused([](auto& m) { m.keyframes[0].heir = 1; });
   refused([](auto& m) { m.lines[0].axis = 9; });
+  refused([](auto& m) { m.planes[0].axis = 3; });
+  refused([](auto& m) { m.planes[0].plane.normal *= 2; });
+  refused([](auto& m) { m.planes[0].plane.distance = std::nan(""); });
+  refused([](auto& m) { m.planes[0].alive = false; });  // and has members
+  refused([](auto& m) { m.lines[0].plane = 1; });
   refused([](auto& m) { m = {}; });
 }

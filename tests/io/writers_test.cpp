@@ -34,18 +34,20 @@ int count_of(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("A map is points as vertices and lines as edges") {
+TEST_CASE("A map is points as vertices, lines as edges and planes as faces") {
   const testing::ScratchFolder scratch;
   const std::vector<io::MapPoint> points{{{1, 2, 3}, {255, 0, 7}}};
   const std::vector<io::MapLine> lines{{{0, 0, 0}, {0, 0, 1}, {1, 2, 3}}, {{1, 0, 0}, {1, 1, 0}, {4, 5, 6}}};
   const auto path = scratch.path() / "map.ply";
-  io::write_map(path, points, lines);
+  const std::vector<io::MapFace> faces{{{{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}}}, {7, 8, 9}}};
+  io::write_map(path, points, lines, faces);
   const std::string text = text_of(path);
   CHECK(text.rfind("ply\nformat ascii 1.0\n", 0) == 0);
-  CHECK(contains(text, "element vertex 5\n"));
+  CHECK(contains(text, "element vertex 9\n"));
   CHECK(contains(text, "element edge 2\n"));
   CHECK(contains(text, "end_header\n1.000000 2.000000 3.000000 255 0 7\n0.000000 0.000000 0.000000 1 2 3\n"));
-  CHECK(contains(text, "\n1 2 1 2 3\n3 4 4 5 6\n"));
+  CHECK(contains(text, "\n1 2 1 2 3\n3 4 4 5 6\n4 5 6 7 8 7 8 9\n"));
+  CHECK(contains(text, "element face 1\n"));
   CHECK(contains(error_of([&] { io::write_map(scratch.path() / "none/map.ply", {}, {}); }),
                  "map.ply: cannot write: No such"));
 }

@@ -65,6 +65,12 @@ TEST_CASE("Derivatives of the ties are those of their residuals") {
     require_same(by_line,
                  differences<2>(line, [&](const Line3<double>& l) { return axis_tie_residual(axis, l); }));
 
+    const Plane3<double> plane{uniform<3>(random, 1).normalized(), 0.7};
+    Mat<double, 2, 3> by_plane;
+    (void)axis_tie_residual(axis, plane, &by_plane);
+    require_same(by_plane,
+                 differences<2>(plane, [&](const Plane3<double>& p) { return axis_tie_residual(axis, p); }));
+
     const Vec3<double> held = uniform<3>(random, 2);
     Mat<double, 1, 6> by_pose;
     (void)scale_tie_residual(held, 1.5, pose, &by_pose);
@@ -123,7 +129,12 @@ TEMPLATE_TEST_CASE("The block kernels do what the matrix products do", "", float
   REQUIRE((times_transposed_lower<S, 6, 4>(W, root) - W * root.transpose()).norm() < kEps);
 
   Mat<S, 8, 8> big = Mat<S, 8, 8>::Zero();
-  subtract_outer<S, 6, 4>(W, W, &big(2, 1), 8);
+  subtract_outer<S, 6, 6, 4>(W, W, &big(2, 1), 8);
   REQUIRE((big.template block<6, 6>(2, 1) + W * W.transpose()).norm() < 10 * kEps);
   REQUIRE(big.template topRows<2>().norm() + big.col(0).norm() + big.col(7).norm() == 0);
+  const Mat<S, 3, 4> three = W.template topRows<3>();
+  big.setZero();
+  subtract_outer<S, 3, 6, 4>(three, W, &big(5, 2), 8);
+  REQUIRE((big.template block<3, 6>(5, 2) + three * W.transpose()).norm() < 10 * kEps);
+  REQUIRE(big.template topRows<5>().norm() + big.template leftCols<2>().norm() == 0);
 }

@@ -80,6 +80,20 @@ class MapScene {
     return kf;
   }
 
+  // Enters the room's six sides into the map as planes, with what stands on them as members; a line in a
+  // corner goes to one of its two.
+  void add_planes(Map<double>& map) const {
+    for (std::int8_t axis = 0; axis < 3; ++axis)
+      for (const double side : {options_.half[axis], -options_.half[axis]}) {
+        const LandmarkId id = map.add_plane({Vec3<double>::Unit(axis), side}, axis);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          if (map.points[i].alive && points[i][axis] == side) map.points[i].plane = id;
+        for (std::size_t i = 0; i < lines.size(); ++i)
+          if (map.lines[i].alive && lines[i].start[axis] == side && lines[i].end[axis] == side)
+            map.lines[i].plane = id;
+      }
+  }
+
   [[nodiscard]] Random& random() { return random_; }
 
  private:

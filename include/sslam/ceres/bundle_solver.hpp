@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "sslam/ceres/cost_functions.hpp"
+#include "sslam/ceres/plane_costs.hpp"
 #include "sslam/solver/bundle_summary.hpp"
 
 namespace sslam {
@@ -40,6 +40,7 @@ class CeresBundleSolver {
     ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
     add_points(graph, problem);
     add_lines(graph, problem);
+    add_planes(graph, problem);
     add_views(graph, problem);
     ceres::Solver::Summary answer;
     if (observations_ > 0) ceres::Solve(solver_options(), &problem, &answer);
@@ -74,16 +75,20 @@ class CeresBundleSolver {
     poses_.resize(graph.views.size());
     point_blocks_.resize(graph.points.size());
     line_blocks_.resize(graph.lines.size());
+    plane_blocks_.resize(graph.planes.size());
     for (std::size_t i = 0; i < poses_.size(); ++i)
       store_pose(graph.views[i].cam_from_world, poses_[i].data());
     for (std::size_t i = 0; i < point_blocks_.size(); ++i)
       Eigen::Map<Vec3<double>>(point_blocks_[i].data()) = graph.points[i].position;
     for (std::size_t i = 0; i < line_blocks_.size(); ++i)
       store_line(graph.lines[i].line, line_blocks_[i].data());
+    for (std::size_t i = 0; i < plane_blocks_.size(); ++i)
+      store_plane(graph.planes[i].plane, plane_blocks_[i].data());
     point_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.point);
     line_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.line);
     rotation_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.rotation);
     axis_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.axis);
+    plane_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.plane);
   }
 
   // An observation that cannot be evaluated at the start would fail the whole problem: it is left out.
@@ -134,6 +139,35 @@ class CeresBundleSolver {
     }
   }
 
+  void add_planes(const BundleGraph<double>& graph, ceres::Problem& problem) {
+    const double sigma = options.losses.flatness * graph.depth;
+    for (std::size_t p = 0; p < graph.planes.size(); ++p) {
+      double* const block = plane_blocks_[p].data();
+      plane_held_costs_.emplace_back(graph.planes[p].held, sigma);
+      problem.AddResidualBlock(&plane_held_costs_.back(), nullptr, block);
+      problem.SetManifold(block, &plane_manifold_);
+      ordering_->AddElementToGroup(block, 1);
+      if (!graph.planes[p].axis) continue;
+      plane_axis_costs_.emplace_back(*graph.planes[p].axis, options.losses.axis_sigma);
+      problem.AddResidualBlock(&plane_axis_costs_.back(), axis_loss_.get(), block);
+    }
+    const auto tie = [&](ceres::CostFunction& cost, std::int32_t plane, double* landmark) {
+      if (!problem.HasParameterBlock(landmark)) return;  // no observation of it can be evaluated
+      problem.AddResidualBlock(&cost, plane_loss_.get(),
+                               plane_blocks_[static_cast<std::size_t>(plane)].data(), landmark);
+    };
+    for (std::size_t i = 0; i < graph.points.size(); ++i) {
+      if (graph.points[i].plane == kNoPlane) continue;
+      point_tie_costs_.emplace_back(sigma);
+      tie(point_tie_costs_.back(), graph.points[i].plane, point_blocks_[i].data());
+    }
+    for (std::size_t i = 0; i < graph.lines.size(); ++i) {
+      if (graph.lines[i].plane == kNoPlane) continue;
+      line_tie_costs_.emplace_back(graph.lines[i].start, graph.lines[i].end, sigma);
+      tie(line_tie_costs_.back(), graph.lines[i].plane, line_blocks_[i].data());
+    }
+  }
+
   void add_views(const BundleGraph<double>& graph, ceres::Problem& problem) {
     for (std::size_t v = 0; v < graph.views.size(); ++v) {
       const BundleView<double>& view = graph.views[v];
@@ -178,7 +212,8 @@ class CeresBundleSolver {
           if (!std::isfinite(x)) return false;
       return true;
     };
-    if (!finite(poses_) || !finite(point_blocks_) || !finite(line_blocks_)) out.status = Status::kNotFinite;
+    if (!finite(poses_) || !finite(point_blocks_) || !finite(line_blocks_) || !finite(plane_blocks_))
+      out.status = Status::kNotFinite;
     return out;
   }
 
@@ -189,6 +224,8 @@ class CeresBundleSolver {
       graph.points[i].position = Eigen::Map<const Vec3<double>>(point_blocks_[i].data());
     for (std::size_t i = 0; i < line_blocks_.size(); ++i)
       graph.lines[i].line = load_line(line_blocks_[i].data());
+    for (std::size_t i = 0; i < plane_blocks_.size(); ++i)
+      graph.planes[i].plane = load_plane(plane_blocks_[i].data());
   }
 
   void release() {
@@ -197,21 +234,31 @@ class CeresBundleSolver {
     rotation_costs_.clear();
     axis_costs_.clear();
     scale_costs_.clear();
+    point_tie_costs_.clear();
+    line_tie_costs_.clear();
+    plane_held_costs_.clear();
+    plane_axis_costs_.clear();
     ordering_.reset();
   }
 
   std::vector<PoseBlock> poses_;
   std::vector<PointBlock> point_blocks_;
   std::vector<LineBlock> line_blocks_;
+  std::vector<PlaneBlock> plane_blocks_;
   std::deque<PointCost> point_costs_;  // Ceres' cost functions cannot move
   std::deque<LineCost> line_costs_;
   std::deque<RotationTieCost> rotation_costs_;
   std::deque<AxisTieCost> axis_costs_;
   std::deque<ScaleTieCost> scale_costs_;
-  std::unique_ptr<ceres::LossFunction> point_loss_, line_loss_, rotation_loss_, axis_loss_;
+  std::deque<PointOnPlaneCost> point_tie_costs_;
+  std::deque<LineOnPlaneCost> line_tie_costs_;
+  std::deque<PlaneHeldCost> plane_held_costs_;
+  std::deque<PlaneAxisCost> plane_axis_costs_;
+  std::unique_ptr<ceres::LossFunction> point_loss_, line_loss_, rotation_loss_, axis_loss_, plane_loss_;
   PoseManifold pose_manifold_;
   TurningPoseManifold turning_manifold_;
   LineManifold line_manifold_;
+  PlaneManifold plane_manifold_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
   int observations_ = 0;  // of points and lines, in the problem
 };

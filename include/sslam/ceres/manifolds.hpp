@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses and lines as Ceres parameter blocks: how they lie in memory, and the core's retractions as manifolds.
+// Poses, lines and planes as Ceres parameter blocks: how they lie in memory, and the core's retractions as
+// manifolds.
 #pragma once
 
 #include <ceres/manifold.h>
@@ -9,6 +10,7 @@
 #include <array>
 
 #include "sslam/geometry/line3.hpp"
+#include "sslam/geometry/plane3.hpp"
 #include "sslam/geometry/se3.hpp"
 
 namespace sslam {
@@ -16,6 +18,7 @@ namespace sslam {
 using PoseBlock = std::array<double, 7>;   // quaternion w x y z, translation
 using PointBlock = std::array<double, 3>;  // world
 using LineBlock = std::array<double, 6>;   // Pluecker moment, direction
+using PlaneBlock = std::array<double, 4>;  // unit normal, distance
 
 [[nodiscard]] inline SE3<double> load_pose(const double* p) {
   return {SO3<double>::from_quaternion(p[0], p[1], p[2], p[3]), Vec3<double>(p[4], p[5], p[6])};
@@ -34,6 +37,15 @@ inline void store_pose(const SE3<double>& pose, double* p) {
 inline void store_line(const Line3<double>& line, double* p) {
   Eigen::Map<Vec6<double>> out(p);
   out << line.moment, line.direction;
+}
+
+[[nodiscard]] inline Plane3<double> load_plane(const double* p) {
+  return {Vec3<double>(p[0], p[1], p[2]), p[3]};
+}
+
+inline void store_plane(const Plane3<double>& plane, double* p) {
+  Eigen::Map<Vec4<double>> out(p);
+  out << plane.normal, plane.distance;
 }
 
 // The cost functions here put the derivative by the tangent in the first columns of the derivative by the
@@ -79,6 +91,14 @@ class LineManifold final : public TangentFirstManifold<6, 4> {
  public:
   bool Plus(const double* x, const double* delta, double* out) const override {
     store_line(load_line(x).retract(Eigen::Map<const Vec4<double>>(delta)), out);
+    return true;
+  }
+};
+
+class PlaneManifold final : public TangentFirstManifold<4, 3> {
+ public:
+  bool Plus(const double* x, const double* delta, double* out) const override {
+    store_plane(load_plane(x).retract(Eigen::Map<const Vec3<double>>(delta)), out);
     return true;
   }
 };

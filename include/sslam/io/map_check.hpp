@@ -2,6 +2,7 @@
 // Whether a map that came from outside holds together.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -39,15 +40,21 @@ inline void check_map(const Map<double>& map) {
     for (const Neighbour& n : kf.neighbours) demand(inside(n.keyframe, map.keyframes.size()));
   }
   const auto check_landmarks = [&](const auto& landmarks, auto features) {
-    for (const auto& landmark : landmarks)
+    for (const auto& landmark : landmarks) {
+      demand(landmark.plane == kNone ||
+             (inside(landmark.plane, map.planes.size()) && map.planes[map.index(landmark.plane)].alive));
       for (const Observation& o : landmark.observations)
         demand(inside(o.keyframe, map.keyframes.size()) &&
                inside(o.feature, features(map.keyframes[map.index(o.keyframe)])));
+    }
   };
   check_landmarks(map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
   check_landmarks(map.lines, [](const Keyframe<double>& kf) { return kf.frame.lines.size(); });
   for (const auto& p : map.points) demand(p.position.allFinite());
   for (const auto& l : map.lines) demand(l.line.moment.allFinite() && l.axis >= kNone && l.axis < axes);
+  for (const auto& p : map.planes)
+    demand(std::abs(p.plane.normal.norm() - 1) < 1e-6 && std::isfinite(p.plane.distance) && p.axis >= kNone &&
+           p.axis < axes);
 }
 
 }  // namespace sslam::io

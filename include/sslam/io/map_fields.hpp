@@ -24,6 +24,7 @@ class MapFields {
     fields(map.keyframes);
     fields(map.points);
     fields(map.lines);
+    fields(map.planes);
     fields(map.world_from_manhattan);
   }
 
@@ -130,6 +131,7 @@ class MapFields {
     archive_(l.first_keyframe);
     archive_(l.visible);
     archive_(l.found);
+    archive_(l.plane);
     archive_(l.alive);
   }
 
@@ -147,6 +149,14 @@ class MapFields {
     fields(l.start);
     fields(l.end);
     archive_(l.axis);
+  }
+
+  void fields(PlaneLandmark<double>& p) {
+    fields(p.plane.normal);
+    archive_(p.plane.distance);
+    archive_(p.axis);
+    archive_(p.support);
+    archive_(p.alive);
   }
 
   Archive& archive_;

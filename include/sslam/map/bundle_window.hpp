@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sslam/map/map.hpp"
+#include "sslam/map/plane_ties.hpp"
 #include "sslam/solver/bundle_graph.hpp"
 #include "sslam/solver/positive_inverse.hpp"
 
@@ -16,6 +17,7 @@ template <Scalar S>
 struct BundleWindowOptions {
   std::size_t max_free = 7;   // keyframes that move: the newest and its closest neighbours
   std::size_t max_held = 15;  // keyframes around them that see the same landmarks and stay where they are
+  bool planes = true;         // tie points and lines to their planes
   bool manhattan = true;      // tie keyframe rotations and line directions to the Manhattan axes
   S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
 };
@@ -38,6 +40,7 @@ class BundleWindow {
   std::vector<KeyframeId> keyframes;  // one for each graph.views, free ones first
   std::vector<LandmarkId> points;     // one for each graph.points
   std::vector<LandmarkId> lines;      // one for each graph.lines
+  PlaneTies<S> ties;
   std::size_t free_count = 0;
   BundleGraph<S> graph;
 
@@ -73,6 +76,7 @@ class BundleWindow {
       add_view(map.keyframes[map.index(keyframes[v])], v, options);
     add_points(map);
     add_lines(map, options);
+    if (options.planes) ties.add(map, points, lines, options.manhattan, graph);
     fix_gauge();
   }
 
@@ -134,7 +138,7 @@ class BundleWindow {
         graph.point_edges.resize(first);
         return true;
       }
-      graph.points.push_back({landmark.position, to_int(first), to_int(graph.point_edges.size())});
+      graph.points.push_back({landmark.position, to_int(first), to_int(graph.point_edges.size()), kNoPlane});
       return false;
     });
   }
@@ -153,7 +157,10 @@ class BundleWindow {
         graph.line_edges.resize(first);
         return true;
       }
-      graph.lines.push_back({landmark.line, to_int(first), to_int(graph.line_edges.size()), std::nullopt});
+      graph.lines.emplace_back();
+      graph.lines.back().line = landmark.line;
+      graph.lines.back().first_edge = to_int(first);
+      graph.lines.back().last_edge = to_int(graph.line_edges.size());
       if (options.manhattan && landmark.axis != kNone) graph.lines.back().axis = map.axis(landmark.axis);
       return false;
     });

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "sslam/map/bundle_window.hpp"
+#include "sslam/residual/line_on_plane.hpp"
 #include "sslam/residual/line_reprojection.hpp"
+#include "sslam/residual/point_on_plane.hpp"
 #include "sslam/residual/point_reprojection.hpp"
 #include "sslam/solver/bundle_ties.hpp"
 
@@ -19,7 +21,8 @@ struct BundleWriteBackOptions {
   S point_gate =
       S(5.991);  // squared error in sigmas above which an observation goes: chi-square, 2 degrees, 95 %
   S line_gate = S(5.991);   // both endpoints together
-  S axis_gate = S(13.8);    // above which a line no longer follows its axis: 99.9 %
+  S axis_gate = S(13.8);    // above which a line no longer follows its axis, nor a plane: 99.9 %
+  S plane_gate = S(10.8);   // above which a landmark no longer lies on its plane: 1 degree, 99.9 %
   S max_outliers = S(0.3);  // share of the observations; more than that and the result itself is not believed
   S min_ray_sine = S(0.1);  // angle between a ray and the line it trims, below which it says nothing
 };
@@ -41,6 +44,7 @@ class BundleWriteBack {
       map.points[map.index(window.points[i])].position = window.graph.points[i].position;
     for (std::size_t i = 0; i < window.lines.size(); ++i)
       map.lines[map.index(window.lines[i])].line = window.graph.lines[i].line;
+    leave_planes(window, losses, map);
     for (const auto& [id, keyframe] : point_outliers_) map.forget_point(id, keyframe);
     for (const auto& [id, keyframe] : line_outliers_) map.forget_line(id, keyframe);
     for (const LandmarkId id : window.points) refresh_point(map, map.points[map.index(id)]);
@@ -74,6 +78,34 @@ class BundleWriteBack {
         if (!seen || !((r.error * edge.inverse_sigma).squaredNorm() <= options.line_gate))
           line_outliers_.emplace_back(window.lines[i], window.keyframes[Map<S>::index(edge.view)]);
       }
+  }
+
+  // Planes take their new places; what does not lie on its plane is a member no longer.
+  void leave_planes(const BundleWindow<S>& window, const BundleLosses<S>& losses, Map<S>& map) const {
+    const BundleGraph<S>& graph = window.graph;
+    for (std::size_t p = 0; p < graph.planes.size(); ++p) {
+      PlaneLandmark<S>& plane = map.planes[map.index(window.ties.planes[p])];
+      plane.plane = graph.planes[p].plane;
+      if (!graph.planes[p].axis) continue;
+      const S off = axis_tie_residual(*graph.planes[p].axis, plane.plane).norm() / losses.axis_sigma;
+      if (off * off > options.axis_gate) plane.axis = kNone;
+    }
+    const S sigma = losses.flatness * graph.depth;
+    const auto gate = [&](S offset) { return offset * offset <= options.plane_gate * sigma * sigma; };
+    for (std::size_t i = 0; i < graph.points.size(); ++i) {
+      const BundlePoint<S>& point = graph.points[i];
+      if (point.plane == kNoPlane) continue;
+      const Plane3<S>& plane = graph.planes[map.index(point.plane)].plane;
+      if (!gate(point_on_plane(plane, point.position).error[0]))
+        map.points[map.index(window.points[i])].plane = kNone;
+    }
+    for (std::size_t i = 0; i < graph.lines.size(); ++i) {
+      const BundleLine<S>& line = graph.lines[i];
+      if (line.plane == kNoPlane) continue;
+      const Plane3<S>& plane = graph.planes[map.index(line.plane)].plane;
+      if (!gate(line_on_plane(plane, line.line, line.start, line.end).error.cwiseAbs().maxCoeff()))
+        map.lines[map.index(window.lines[i])].plane = kNone;
+    }
   }
 
   // What the map keeps of a point's observers follows their poses.

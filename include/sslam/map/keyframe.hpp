@@ -30,7 +30,7 @@ struct Keyframe {
   SE3<S> cam_from_world;
   std::vector<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
   std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
-  std::vector<std::int8_t> line_axes;       // Manhattan axis of each line (see Map::axis), or kNone
+  std::vector<std::int8_t> line_axes;       // number of each line's Manhattan axis, or kNone
   std::optional<RotationObservation<S>> manhattan;
   std::vector<Neighbour> neighbours;  // covisibility, most shared first
   // Of a keyframe that was removed as redundant: who carries its place on. Nothing else is left of it.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Landmarks: points and lines of the map, each with the keyframe features that observe it.
+// Landmarks: points and lines of the map, each with the keyframe features that observe it, and the planes
+// that they lie on.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +8,13 @@
 
 #include "sslam/core/descriptor.hpp"
 #include "sslam/geometry/line3.hpp"
+#include "sslam/geometry/plane3.hpp"
 
 namespace sslam {
 
 using KeyframeId = std::int32_t;
 using LandmarkId = std::int32_t;
 inline constexpr std::int32_t kNone = -1;
-
-// The axis of its own Manhattan frame, 0, 1 or 2, that a number of Map::axis stands for; kNone for none.
-[[nodiscard]] constexpr std::int8_t axis_in_frame(std::int8_t number) noexcept {
-  return static_cast<std::int8_t>(number == kNone ? kNone : number % 3);
-}
 
 struct Observation {
   KeyframeId keyframe = kNone;
@@ -31,6 +28,7 @@ struct LandmarkCommon {
   KeyframeId first_keyframe = kNone;  // that created it
   std::int32_t visible = 0;           // frames in which it should have been seen
   std::int32_t found = 0;             // frames in which it was
+  LandmarkId plane = kNone;           // that it lies on
   bool alive = true;                  // false: culled or fused; a later landmark may take its id
 };
 
@@ -45,7 +43,16 @@ template <Scalar S>
 struct LineLandmark : LandmarkCommon {
   Line3<S> line;             // world
   Vec3<S> start, end;        // world, on the line: the part that has been seen
-  std::int8_t axis = kNone;  // Manhattan axis that it follows, as Map::axis counts them, or kNone
+  std::int8_t axis = kNone;  // Manhattan axis that it follows, by its number (manhattan_axes.hpp), or kNone
+};
+
+// Its members say where it is: points and lines whose `plane` it is. No feature observes it.
+template <Scalar S>
+struct PlaneLandmark {
+  Plane3<S> plane;           // world
+  std::int8_t axis = kNone;  // number of the Manhattan axis that it is normal to, or kNone
+  std::int32_t support = 0;  // members when they were last counted
+  bool alive = true;         // false: a later plane may take its id
 };
 
 }  // namespace sslam

@@ -9,6 +9,7 @@
 
 #include "sslam/map/free_ids.hpp"
 #include "sslam/map/keyframe.hpp"
+#include "sslam/map/manhattan_axes.hpp"
 
 namespace sslam {
 
@@ -20,13 +21,14 @@ class Map {
   std::vector<Keyframe<S>> keyframes;
   std::vector<PointLandmark<S>> points;
   std::vector<LineLandmark<S>> lines;
+  std::vector<PlaneLandmark<S>> planes;
   std::vector<SO3<S>> world_from_manhattan;  // how the Manhattan frames that are known stand in the world
 
   [[nodiscard]] bool empty() const noexcept { return keyframes.empty(); }
 
-  // Direction in the world of a Manhattan axis: they are numbered through the frames, three of each.
+  // Direction in the world of a Manhattan axis.
   [[nodiscard]] Vec3<S> axis(std::int8_t number) const {
-    return world_from_manhattan[index(number / 3)].matrix().col(number % 3);
+    return axis_direction(world_from_manhattan, number);
   }
 
   // Takes the keyframe over, gives it its id, and enters it in the landmarks that it already observes.
@@ -65,6 +67,10 @@ class Map {
     return free_lines_.settle(lines, std::move(landmark));
   }
 
+  LandmarkId add_plane(const Plane3<S>& plane, std::int8_t axis) {
+    return free_planes_.settle(planes, PlaneLandmark<S>{plane, axis, 0, true});
+  }
+
   void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
     Keyframe<S>& kf = keyframes[index(keyframe)];
     kf.point_landmarks[feature] = id;
@@ -85,10 +91,21 @@ class Map {
   void erase_point(LandmarkId id) { erase(points, free_points_, id, &Keyframe<S>::point_landmarks); }
   void erase_line(LandmarkId id) { erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks); }
 
+  // Its members lie on none afterwards.
+  void erase_plane(LandmarkId id) {
+    planes[index(id)].alive = false;
+    for (auto& point : points)
+      if (point.plane == id) point.plane = kNone;
+    for (auto& line : lines)
+      if (line.plane == id) line.plane = kNone;
+    free_planes_.add(id);
+  }
+
   // Finds the ids that can be given away in landmarks that were filled in from outside.
   void collect_free_ids() {
     free_points_.collect(points);
     free_lines_.collect(lines);
+    free_planes_.collect(planes);
   }
 
   // Withdraws one observation; a landmark left with fewer than two goes too.
@@ -196,6 +213,7 @@ class Map {
     }
     landmark.observations.clear();
     landmark.observations.shrink_to_fit();
+    landmark.plane = kNone;
     landmark.alive = false;
     free.add(id);
   }
@@ -221,6 +239,7 @@ class Map {
                        [&](const Observation& p) { return p.keyframe == o.keyframe; }))
         observe(o);
     }
+    if (landmarks[index(into)].plane == kNone) landmarks[index(into)].plane = landmarks[index(from)].plane;
     landmarks[index(into)].visible += landmarks[index(from)].visible;
     landmarks[index(into)].found += landmarks[index(from)].found;
   }
@@ -244,7 +263,7 @@ class Map {
                      [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
   }
 
-  FreeIds free_points_, free_lines_;
+  FreeIds free_points_, free_lines_, free_planes_;
   std::vector<std::int32_t> shared_;  // scratch of update_covisibility
 };
 

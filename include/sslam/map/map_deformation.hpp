@@ -12,9 +12,32 @@
 
 namespace sslam {
 
+namespace detail {
+
+// Where the members of a plane take it: the mean of their turns, through their middle.
+template <Scalar S>
+struct MovedPlane {
+  Vec3<S> normal;
+  Vec3<S> normals = Vec3<S>::Zero(), places = Vec3<S>::Zero();
+  int members = 0;
+
+  void add(const Sim3<S>& moved, const Vec3<S>& place) {
+    normals += moved.rotation * normal;
+    places += moved * place;
+    ++members;
+  }
+  void put(Plane3<S>& plane) const {
+    if (members == 0 || !(normals.norm() > 0)) return;
+    plane.normal = normals.normalized();
+    plane.distance = plane.normal.dot(places) / static_cast<S>(members);
+  }
+};
+
+}  // namespace detail
+
 // new_from_old[k], in the world, for each keyframe that is alive. A landmark follows the first keyframe that
-// observes it; the place of a removed keyframe follows its heir, and its entry in new_from_old becomes the
-// heir's.
+// observes it, a plane the mean of its members; the place of a removed keyframe follows its heir, and its
+// entry in new_from_old becomes the heir's.
 template <Scalar S>
 void deform(Map<S>& map, std::span<Sim3<S>> new_from_old) {
   const auto index = [](std::int32_t id) { return Map<S>::index(id); };
@@ -28,9 +51,12 @@ void deform(Map<S>& map, std::span<Sim3<S>> new_from_old) {
     kf.cam_from_world =
         SE3<S>{moved.rotation * world_from_cam.rotation, moved * world_from_cam.translation}.inverse();
   }
+  std::vector<detail::MovedPlane<S>> planes;
+  for (const PlaneLandmark<S>& plane : map.planes) planes.push_back({plane.plane.normal});
   for (PointLandmark<S>& point : map.points) {
     if (!point.alive || point.observations.empty()) continue;
     const Sim3<S>& moved = new_from_old[index(point.observations.front().keyframe)];
+    if (point.plane != kNone) planes[index(point.plane)].add(moved, point.position);
     point.position = moved * point.position;
     point.viewing_direction = moved.rotation * point.viewing_direction;
     point.extent *= moved.scale;
@@ -38,10 +64,13 @@ void deform(Map<S>& map, std::span<Sim3<S>> new_from_old) {
   for (LineLandmark<S>& line : map.lines) {
     if (!line.alive || line.observations.empty()) continue;
     const Sim3<S>& moved = new_from_old[index(line.observations.front().keyframe)];
+    if (line.plane != kNone) planes[index(line.plane)].add(moved, (line.start + line.end) / 2);
     line.line = transform(moved, line.line);
     line.start = moved * line.start;
     line.end = moved * line.end;
   }
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    if (map.planes[p].alive) planes[p].put(map.planes[p].plane);
 }
 
 }  // namespace sslam

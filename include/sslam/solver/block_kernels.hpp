@@ -52,10 +52,10 @@ template <Scalar S, int M, int D>
   return out;
 }
 
-// The block of M x M at `corner` of a column-major matrix with the given stride, less A B^T.
-template <Scalar S, int M, int D>
-void subtract_outer(const Mat<S, M, D>& a, const Mat<S, M, D>& b, S* corner, std::ptrdiff_t stride) noexcept {
-  for (int n = 0; n < M; ++n) {
+// The block of M x N at `corner` of a column-major matrix with the given stride, less A B^T.
+template <Scalar S, int M, int N, int D>
+void subtract_outer(const Mat<S, M, D>& a, const Mat<S, N, D>& b, S* corner, std::ptrdiff_t stride) noexcept {
+  for (int n = 0; n < N; ++n) {
     Vec<S, M> sum = a.col(0) * b(n, 0);
     for (int d = 1; d < D; ++d) sum += a.col(d) * b(n, d);
     Eigen::Map<Vec<S, M>>{corner + n* stride} -= sum;

@@ -9,6 +9,7 @@
 #include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/line2.hpp"
 #include "sslam/geometry/line3.hpp"
+#include "sslam/geometry/plane3.hpp"
 #include "sslam/geometry/se3.hpp"
 
 namespace sslam {
@@ -49,18 +50,33 @@ struct LineEdge {
   std::int32_t view = 0;
 };
 
+inline constexpr std::int32_t kNoPlane = -1;
+
 // Edges [first_edge, last_edge) of BundleGraph::point_edges are its own.
 template <Scalar S>
 struct BundlePoint {
   Vec3<S> position;  // world
   std::int32_t first_edge = 0, last_edge = 0;
+  std::int32_t plane = kNoPlane;  // that it is tied to: index into BundleGraph::planes
 };
 
 template <Scalar S>
 struct BundleLine {
   Line3<S> line;  // world
   std::int32_t first_edge = 0, last_edge = 0;
-  std::optional<Vec3<S>> axis;  // unit, world: the direction, up to its sign, that structure gives the line
+  std::optional<Vec3<S>> axis;    // unit, world: the direction, up to its sign, that structure gives the line
+  std::int32_t plane = kNoPlane;  // that it is tied to
+  Vec3<S> start = Vec3<S>::Zero(), end = Vec3<S>::Zero();  // world: where on the line the tie holds
+};
+
+// Points and lines are tied to it, and it moves with them.
+template <Scalar S>
+struct BundlePlane {
+  Plane3<S> plane;              // world
+  std::optional<Vec3<S>> axis;  // unit, world: the normal, up to its sign, that structure gives the plane
+  // Members that stay where they are: the sum of (X, -1)(X, -1)^T, so that p^T held p is that of their
+  // squared distances from the plane p = (normal, distance).
+  Mat<S, 4, 4> held = Mat<S, 4, 4>::Zero();
 };
 
 // Holds the distance between a held and a free view: the one degree of freedom that observations leave open.
@@ -75,14 +91,17 @@ struct BundleGraph {
   std::vector<BundleView<S>> views;
   std::vector<BundlePoint<S>> points;
   std::vector<BundleLine<S>> lines;
+  std::vector<BundlePlane<S>> planes;
   std::vector<PointEdge<S>> point_edges;
   std::vector<LineEdge<S>> line_edges;
   std::optional<ScaleTie<S>> scale;
+  S depth = 1;  // of the scene, units of the map: what the flatness of planes is relative to
 
   void clear() noexcept {
     views.clear();
     points.clear();
     lines.clear();
+    planes.clear();
     point_edges.clear();
     line_edges.clear();
     scale.reset();
@@ -99,6 +118,8 @@ struct BundleLosses {
   S rotation = 2;                  // a Manhattan frame that was the wrong one
   S axis = 2;                      // a line that does not follow its axis
   S axis_sigma = radians(S(0.5));  // squareness of real walls and edges
+  S plane = 2;                     // a landmark that does not lie on its plane
+  S flatness = S(0.01);            // of real walls and of what hangs on them, over the scene depth
   S scale_sigma = S(1e-3);         // of the held distance, as a part of it; it competes with nothing
 };
 

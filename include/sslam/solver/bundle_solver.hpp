@@ -105,6 +105,8 @@ class BundleSolver {
     for (std::size_t i = 0; i < state_.points.size(); ++i) trial_.points[i] += equations_.points.steps[i];
     for (std::size_t i = 0; i < state_.lines.size(); ++i)
       trial_.lines[i] = state_.lines[i].retract(equations_.lines.steps[i]);
+    for (std::size_t p = 0; p < state_.planes.size(); ++p)
+      trial_.planes[p] = state_.planes[p].retract(equations_.plane_step(p));
   }
 
   [[nodiscard]] static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "sslam/solver/bundle_graph.hpp"
@@ -16,16 +17,19 @@ struct BundleState {
   std::vector<Mat3<S>> rotations;  // of the views, as matrices
   std::vector<Vec3<S>> points;
   std::vector<Line3<S>> lines;
+  std::vector<Plane3<S>> planes;
 
   void load(const BundleGraph<S>& graph) {
     views.clear();
     rotations.clear();
     points.clear();
     lines.clear();
+    planes.clear();
     for (const auto& v : graph.views) views.push_back(v.cam_from_world);
     for (const auto& v : views) rotations.push_back(v.rotation.matrix());
     for (const auto& p : graph.points) points.push_back(p.position);
     for (const auto& l : graph.lines) lines.push_back(l.line);
+    for (const auto& p : graph.planes) planes.push_back(p.plane);
   }
 
   void store(BundleGraph<S>& graph) const {
@@ -33,6 +37,7 @@ struct BundleState {
       if (graph.views[i].hold != Hold::kPose) graph.views[i].cam_from_world = views[i];
     for (std::size_t i = 0; i < points.size(); ++i) graph.points[i].position = points[i];
     for (std::size_t i = 0; i < lines.size(); ++i) graph.lines[i].line = lines[i];
+    for (std::size_t i = 0; i < planes.size(); ++i) graph.planes[i].plane = planes[i];
   }
 
   [[nodiscard]] bool finite() const noexcept {
@@ -42,7 +47,9 @@ struct BundleState {
                        }) &&
            std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }) &&
            std::all_of(lines.begin(), lines.end(),
-                       [](const auto& l) { return l.moment.allFinite() && l.direction.allFinite(); });
+                       [](const auto& l) { return l.moment.allFinite() && l.direction.allFinite(); }) &&
+           std::all_of(planes.begin(), planes.end(),
+                       [](const auto& p) { return p.normal.allFinite() && std::isfinite(p.distance); });
   }
 };
 

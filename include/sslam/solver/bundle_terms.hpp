@@ -6,8 +6,10 @@
 #include <limits>
 #include <span>
 
+#include "sslam/residual/line_on_plane.hpp"
 #include "sslam/residual/line_reprojection.hpp"
 #include "sslam/residual/loss.hpp"
+#include "sslam/residual/point_on_plane.hpp"
 #include "sslam/residual/point_reprojection.hpp"
 #include "sslam/solver/bundle_state.hpp"
 #include "sslam/solver/bundle_ties.hpp"
@@ -31,6 +33,7 @@ class BundleTerms {
 
   [[nodiscard]] S visit(const ActiveEdges& active) {
     S cost = visit_points(active.points) + visit_lines(active.lines);
+    for (std::size_t p = 0; p < graph_.planes.size(); ++p) cost += visit_plane(p);
     for (std::size_t v = 0; v < graph_.views.size(); ++v) cost += visit_rotation(v);
     return cost + visit_scale();
   }
@@ -41,7 +44,7 @@ class BundleTerms {
   [[nodiscard]] S visit_points(std::span<const std::uint8_t> active) {
     const CauchyLoss<S> loss{losses_.point};
     S cost = 0;
-    for (std::size_t i = 0; i < graph_.points.size(); ++i)
+    for (std::size_t i = 0; i < graph_.points.size(); ++i) {
       for (auto e = to_index(graph_.points[i].first_edge); e < to_index(graph_.points[i].last_edge); ++e) {
         if (active[e] == 0) continue;
         const PointEdge<S>& edge = graph_.point_edges[e];
@@ -58,6 +61,8 @@ class BundleTerms {
           by_point = seen.wrt_point(state_.rotations[v]);
         });
       }
+      if (graph_.points[i].plane != kNoPlane) cost += visit_point_on_plane(i);
+    }
     return cost;
   }
 
@@ -82,6 +87,7 @@ class BundleTerms {
         });
       }
       if (graph_.lines[i].axis) cost += visit_axis(i);
+      if (graph_.lines[i].plane != kNoPlane) cost += visit_line_on_plane(i);
     }
     return cost;
   }
@@ -95,6 +101,56 @@ class BundleTerms {
     const S squared = error.squaredNorm();
     sink_.axis(i, error, loss.weight(squared), Mat<S, 2, 4>(inverse_sigma * derivative));
     return loss.rho(squared);
+  }
+
+  [[nodiscard]] S inverse_plane_sigma() const { return 1 / (losses_.flatness * graph_.depth); }
+
+  [[nodiscard]] S visit_point_on_plane(std::size_t i) {
+    const CauchyLoss<S> loss{losses_.plane};
+    const S inverse_sigma = inverse_plane_sigma();
+    const auto plane = to_index(graph_.points[i].plane);
+    PointOnPlane<S> tie = point_on_plane(state_.planes[plane], state_.points[i]);
+    tie.error *= inverse_sigma;
+    const S squared = tie.error.squaredNorm();
+    sink_.point_on_plane(i, plane, tie.error, loss.weight(squared),
+                         Mat<S, 1, 3>(inverse_sigma * tie.wrt_plane),
+                         Mat<S, 1, 3>(inverse_sigma * tie.wrt_point));
+    return loss.rho(squared);
+  }
+
+  [[nodiscard]] S visit_line_on_plane(std::size_t i) {
+    const CauchyLoss<S> loss{losses_.plane};
+    const S inverse_sigma = inverse_plane_sigma();
+    const BundleLine<S>& line = graph_.lines[i];
+    const auto plane = to_index(line.plane);
+    LineOnPlane<S> tie = line_on_plane(state_.planes[plane], state_.lines[i], line.start, line.end);
+    tie.error *= inverse_sigma;
+    const S squared = tie.error.squaredNorm();
+    sink_.line_on_plane(i, plane, tie.error, loss.weight(squared),
+                        Mat<S, 2, 3>(inverse_sigma * tie.wrt_plane),
+                        Mat<S, 2, 4>(inverse_sigma * tie.wrt_line));
+    return loss.rho(squared);
+  }
+
+  // What holds the plane itself: its axis, and the members that stay.
+  [[nodiscard]] S visit_plane(std::size_t p) {
+    const Plane3<S>& plane = state_.planes[p];
+    const S inverse_variance = inverse_plane_sigma() * inverse_plane_sigma();
+    Vec4<S> stacked;
+    stacked << plane.normal, plane.distance;
+    const Mat<S, 4, 3> by_tangent = plane.retract_jacobian();
+    const Vec4<S> pull = inverse_variance * (graph_.planes[p].held * stacked);
+    const Mat3<S> H = inverse_variance * by_tangent.transpose() * graph_.planes[p].held * by_tangent;
+    sink_.plane_held(p, H, Vec3<S>(by_tangent.transpose() * pull));
+    const S cost = stacked.dot(pull);
+    if (!graph_.planes[p].axis) return cost;
+    const CauchyLoss<S> loss{losses_.axis};
+    const S inverse_sigma = 1 / losses_.axis_sigma;
+    Mat<S, 2, 3> derivative;
+    const Vec2<S> error = inverse_sigma * axis_tie_residual(*graph_.planes[p].axis, plane, &derivative);
+    const S squared = error.squaredNorm();
+    sink_.plane_axis(p, error, loss.weight(squared), Mat<S, 2, 3>(inverse_sigma * derivative));
+    return cost + loss.rho(squared);
   }
 
   [[nodiscard]] S visit_rotation(std::size_t v) {
@@ -136,6 +192,14 @@ struct CostOnly {
   void line(const Args&...) const noexcept {}
   template <class... Args>
   void axis(const Args&...) const noexcept {}
+  template <class... Args>
+  void point_on_plane(const Args&...) const noexcept {}
+  template <class... Args>
+  void line_on_plane(const Args&...) const noexcept {}
+  template <class... Args>
+  void plane_held(const Args&...) const noexcept {}
+  template <class... Args>
+  void plane_axis(const Args&...) const noexcept {}
   template <class... Args>
   void rotation(const Args&...) const noexcept {}
   template <class... Args>

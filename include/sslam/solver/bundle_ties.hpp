@@ -28,6 +28,15 @@ template <Scalar S>
   return across * line.direction;
 }
 
+// The same for a plane's normal.
+template <Scalar S>
+[[nodiscard]] Vec2<S> axis_tie_residual(const Vec3<S>& axis, const Plane3<S>& plane,
+                                        Mat<S, 2, 3>* by_plane = nullptr) noexcept {
+  const Mat<S, 2, 3> across = tangent_basis<S>(axis).transpose();
+  if (by_plane) *by_plane << across * tangent_basis(plane.normal), Vec2<S>::Zero();
+  return across * plane.normal;
+}
+
 // Distance from the held centre over what it should be, less one. The centre is -R^T t; its derivative by xi
 // is (0, -R^T).
 template <Scalar S>

@@ -5,13 +5,11 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "sslam/manhattan/cube.hpp"
-#include "sslam/map/landmark.hpp"
 
 namespace sslam {
 
@@ -30,26 +28,16 @@ class ManhattanFrames {
   void reset(const std::vector<SO3<S>>& world_from_manhattan) {
     known_ = world_from_manhattan;
     see_nothing();
-    turned_ = false;
+    askew_.reset();
   }
 
   // The world is not fixed yet: this frame becomes its axes.
   void begin() { reset({SO3<S>()}); }
 
-  // The number by which the map knows an axis (0, 1, 2) of a frame; see Map::axis. Frames that share an axis,
-  // as two wings share the vertical, share its number.
-  [[nodiscard]] std::int8_t number(std::size_t index, std::int8_t axis) const {
-    if (axis == kNone) return kNone;
-    const Vec3<S> direction = known_[index].matrix().col(axis);
-    for (std::size_t i = 0; i < index; ++i)
-      for (std::int8_t a = 0; a < 3; ++a)
-        if (std::abs(direction.dot(known_[i].matrix().col(a))) > std::cos(agreement)) return number(i, a);
-    return static_cast<std::int8_t>(3 * index + static_cast<std::size_t>(axis));
-  }
-
   // Which of the frames one is that stands in the world like this. It is the one that was seen last as long
   // as it has not jumped since: poses that turn, as in a map that is wrong, do not make it another. After a
-  // jump it is the nearest, if that is near enough.
+  // jump it is the nearest, if that is near enough; otherwise it is an unknown one, unless the poses had
+  // turned before.
   [[nodiscard]] std::optional<std::size_t> which(const SO3<S>& world_from_manhattan) const {
     if (last_ && angle_between_frames(world_from_manhattan, last_->world_from_manhattan) < agreement)
       return last_->index;
@@ -62,12 +50,13 @@ class ManhattanFrames {
         nearest = i;
       }
     }
-    return nearest;
+    return nearest ? nearest : askew_;
   }
 
   void see(std::size_t index, const SO3<S>& world_from_manhattan) {
     last_ = Sighting{index, world_from_manhattan};
-    turned_ = angle_between_frames(world_from_manhattan, known_[index]) > told_apart / 2;
+    askew_.reset();
+    if (angle_between_frames(world_from_manhattan, known_[index]) > told_apart / 2) askew_ = index;
     candidate_.reset();
   }
 
@@ -77,10 +66,10 @@ class ManhattanFrames {
   }
 
   // A frame that is none of those known. It becomes one, and true is answered, once it has been met often
-  // enough in a row, by poses that stood square to the one before.
+  // enough in a row.
   bool see_unknown(const SO3<S>& world_from_manhattan) {
     last_.reset();
-    if (known_.size() >= most || turned_) return false;
+    if (known_.size() >= most) return false;
     const SO3<S> named =
         candidate_ ? closest_naming(world_from_manhattan, *candidate_) : world_from_manhattan;
     if (!candidate_ || angle_between(named, *candidate_) >= agreement) {
@@ -104,9 +93,9 @@ class ManhattanFrames {
   };
 
   std::vector<SO3<S>> known_;
-  std::optional<Sighting> last_;     // what the last image showed
-  bool turned_ = false;              // the poses had turned away from the frame that was seen last
-  std::optional<SO3<S>> candidate_;  // for another frame
+  std::optional<Sighting> last_;      // what the last image showed
+  std::optional<std::size_t> askew_;  // the frame that the poses had turned away from when it was seen
+  std::optional<SO3<S>> candidate_;   // for another frame
   int agreed_ = 0;
 };
 

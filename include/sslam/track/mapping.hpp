@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mapping: what happens when a frame becomes a keyframe. The optimiser is a policy: none, or bundle
-// adjustment.
+// Mapping: what happens when a frame becomes a keyframe. The optimiser is a policy, none or bundle
+// adjustment, and so are planes, which ask for one that ties landmarks to them.
 #pragma once
 
 #include <concepts>
@@ -9,6 +9,7 @@
 #include "sslam/track/keyframe_culling.hpp"
 #include "sslam/track/landmark_culling.hpp"
 #include "sslam/track/new_landmarks.hpp"
+#include "sslam/track/planes.hpp"
 
 namespace sslam {
 
@@ -25,13 +26,14 @@ struct NoOptimiser {
 };
 static_assert(MapOptimiser<NoOptimiser<double>, double>);
 
-template <Scalar S, MapOptimiser<S> Optimiser = NoOptimiser<S>>
+template <Scalar S, MapOptimiser<S> Optimiser = NoOptimiser<S>, PlaneStep<S> Planes = NoPlanes<S>>
 class KeyframeMapping {
  public:
   NewLandmarks<S> creation;
   LandmarkFusion<S> fusion;
   LandmarkCulling<S> culling;
   KeyframeCulling<S> keyframe_culling;
+  Planes planes;
   Optimiser optimiser;
 
   // The tracked frame joins the map; its pose and matches are updated with what mapping makes of them.
@@ -40,6 +42,7 @@ class KeyframeMapping {
     culling.cull(map, id);
     creation.create(map, id, median_depth);
     fusion.fuse(map, id);
+    planes.find(map, id, median_depth);
     map.update_covisibility(id);
     optimiser.optimise(map, id);
     keyframe_culling.cull(map, id);
@@ -51,6 +54,7 @@ class KeyframeMapping {
   void begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
     const KeyframeId id = map.keyframes.back().id;
     creation.create(map, id, median_depth);
+    planes.find(map, id, median_depth);
     map.update_covisibility(id);
     optimiser.optimise(map, id);
     frame.read_back(map.keyframes[map.index(id)]);

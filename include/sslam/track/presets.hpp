@@ -16,9 +16,9 @@
 
 namespace sslam::presets {
 
-// Bundle adjustment around each new keyframe.
+// Bundle adjustment around each new keyframe, with planes where a Manhattan frame is known.
 template <Scalar S>
-using BundleMapping = KeyframeMapping<S, MapAdjustment<S, BundleSolver<S>>>;
+using BundleMapping = KeyframeMapping<S, MapAdjustment<S, BundleSolver<S>>, ManhattanPlanes<S>>;
 
 // Decoupled tracking with the Manhattan frame, fallback, refinement against the local map, local bundle
 // adjustment, loop closing.

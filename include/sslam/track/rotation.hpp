@@ -9,6 +9,7 @@
 
 #include "sslam/manhattan/rotation.hpp"
 #include "sslam/manhattan/search.hpp"
+#include "sslam/map/manhattan_axes.hpp"
 #include "sslam/track/manhattan_frames.hpp"
 #include "sslam/track/tracked_frame.hpp"
 
@@ -112,7 +113,7 @@ class ManhattanRotation {
   RotationAnswer<S> answer(std::size_t index, TrackedFrame<S>& frame) {
     active_ = index;
     frames.see(index, predicted_.inverse() * estimate_.cam_from_manhattan);
-    for (std::int8_t& axis : frame.line_axes) axis = frames.number(index, axis);
+    for (std::int8_t& axis : frame.line_axes) axis = axis_number(frames.world_from_manhattan(), index, axis);
     RotationObservation<S> observation;
     observation.cam_from_world =
         estimate_.cam_from_manhattan * frames.world_from_manhattan()[index].inverse();

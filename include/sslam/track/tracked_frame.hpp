@@ -16,7 +16,7 @@ struct TrackedFrame {
   FeatureGrid<S> grid;                      // over frame.points
   std::vector<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
   std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
-  std::vector<std::int8_t> line_axes;       // Manhattan axis of each line (see Map::axis), or kNone
+  std::vector<std::int8_t> line_axes;       // number of each line's Manhattan axis, or kNone
   std::optional<RotationObservation<S>> manhattan;
   std::size_t manhattan_frame = 0;  // of the map's, that this rotation comes from
   SE3<S> cam_from_world;
