@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/overlay_colours.hpp"
+#include "sslam/map/manhattan_axes.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sslam/io/byte_archive.hpp"
+#include "sslam/map/manhattan_axes.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -81,6 +81,7 @@
 
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/map/bundle_write_back.hpp"
+#include "sslam/map/covisibility.hpp"
 #include "sslam/map/essential_graph.hpp"
 #include "sslam/map/frame.hpp"
 #include "sslam/map/free_ids.hpp"

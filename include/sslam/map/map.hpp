@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/map/covisibility.hpp"
 #include "sslam/map/free_ids.hpp"
 #include "sslam/map/keyframe.hpp"
 #include "sslam/map/manhattan_axes.hpp"
@@ -162,17 +163,11 @@ class Map {
 
   // Counts anew which keyframes share landmarks with this one, on both sides.
   void update_covisibility(KeyframeId id) {
-    shared_.assign(keyframes.size(), 0);
-    Keyframe<S>& kf = keyframes[index(id)];
-    count_shared(kf.point_landmarks, points);
-    count_shared(kf.line_landmarks, lines);
-    shared_[index(id)] = 0;
-    kf.neighbours.clear();
-    for (std::size_t other = 0; other < shared_.size(); ++other) {
-      set_neighbour(keyframes[other].neighbours, {id, shared_[other]});
-      if (shared_[other] > 0) kf.neighbours.push_back({static_cast<KeyframeId>(other), shared_[other]});
-    }
-    sort_by_shared(kf.neighbours);
+    const Keyframe<S>& kf = keyframes[index(id)];
+    covisibility_.begin(keyframes.size());
+    covisibility_.count(kf.point_landmarks, points);
+    covisibility_.count(kf.line_landmarks, lines);
+    covisibility_.enter(id, keyframes);
   }
 
   [[nodiscard]] static constexpr std::size_t index(std::int32_t id) noexcept {
@@ -244,27 +239,8 @@ class Map {
     landmarks[index(into)].found += landmarks[index(from)].found;
   }
 
-  template <class Landmarks>
-  void count_shared(const std::vector<LandmarkId>& seen, const Landmarks& landmarks) {
-    for (const LandmarkId id : seen)
-      if (id != kNone)
-        for (const Observation& o : landmarks[index(id)].observations) ++shared_[index(o.keyframe)];
-  }
-
-  static void set_neighbour(std::vector<Neighbour>& neighbours, Neighbour neighbour) {
-    std::erase_if(neighbours, [&](const Neighbour& n) { return n.keyframe == neighbour.keyframe; });
-    if (neighbour.shared == 0) return;
-    neighbours.push_back(neighbour);
-    sort_by_shared(neighbours);
-  }
-
-  static void sort_by_shared(std::vector<Neighbour>& neighbours) {
-    std::stable_sort(neighbours.begin(), neighbours.end(),
-                     [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
-  }
-
   FreeIds free_points_, free_lines_, free_planes_;
-  std::vector<std::int32_t> shared_;  // scratch of update_covisibility
+  Covisibility covisibility_;
 };
 
 }  // namespace sslam
