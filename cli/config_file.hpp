@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "sslam/io/error.hpp"
 
@@ -20,7 +21,11 @@ inline void apply_config_item(CLI::App& command, const std::string& file, const 
   if (option == nullptr || key == "config")
     throw io::Error(file + ": '" + key + "' is not an option of sslam run");
   if (parameter) {
+    // Of two settings of one parameter the later holds, and the command line has been read already.
+    const std::vector<std::string> given = option->results();
+    option->clear();
     option->add_result(key.substr(std::string("set.").size()) + "=" + item.inputs.at(0));
+    option->add_result(given);
   } else if (option->count() == 0) {
     for (const std::string& value : item.inputs) option->add_result(value);
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/progress_options.hpp"
 #include "cli/run.hpp"
 #include "cli/run_folder.hpp"
@@ -32,7 +33,7 @@ void run_demo(const DemoSettings& settings) {
   synth.house.seed = settings.seed;
   synth.verbosity = settings.verbosity;
   const SynthReport rendered = synthesise(synth);
-  if (rendered.interrupted) return;
+  if (rendered.interrupted) throw Stop{ExitCode::kInterrupted};
   RunSettings track;
   track.dataset = synth.folder;
   track.out = (folder / "run").string();

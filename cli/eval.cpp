@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/choice_option.hpp"
 #include "cli/commands.hpp"
 #include "cli/eval_report.hpp"
 #include "cli/messages.hpp"
@@ -19,6 +20,11 @@
 
 namespace sslam::cli {
 namespace {
+
+const std::map<std::string, io::Alignment> kAlignmentNames{
+    {"sim3", io::Alignment::kSim3}, {"se3", io::Alignment::kSe3}, {"none", io::Alignment::kNone}};
+const std::map<std::string, FileAxes> kAxesNames{
+    {"auto", FileAxes::kAuto}, {"y-down", FileAxes::kYDown}, {"y-up", FileAxes::kYUp}};
 
 struct EvalSettings {
   std::string truth;
@@ -76,17 +82,11 @@ void add_eval_command(CLI::App& app) {
   CLI::App* eval = app.add_subcommand("eval", "Compare a trajectory with ground truth (ATE, RPE, rotation)");
   auto settings = std::make_shared<EvalSettings>();
   io::EvaluationOptions& options = settings->options;
-  const std::map<std::string, io::Alignment> alignments{
-      {"sim3", io::Alignment::kSim3}, {"se3", io::Alignment::kSe3}, {"none", io::Alignment::kNone}};
-  const std::map<std::string, FileAxes> axes{
-      {"auto", FileAxes::kAuto}, {"y-down", FileAxes::kYDown}, {"y-up", FileAxes::kYUp}};
   eval->add_option("GROUNDTRUTH", settings->truth, "trajectory in TUM format, or the folder of a dataset")
       ->required();
   eval->add_option("ESTIMATE", settings->estimate, "trajectory in TUM format, camera to world")->required();
-  eval->add_option("--align", options.alignment,
-                   "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3")
-      ->transform(CLI::CheckedTransformer(alignments).description(""))
-      ->type_name("{sim3,se3,none}");
+  add_choice(*eval, "--align", options.alignment, kAlignmentNames,
+             "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3");
   eval->add_option("--max-difference", options.max_difference, "between the stamps of a pair; default 0.02")
       ->check(CLI::PositiveNumber);
   eval->add_option("--delta", settings->deltas,
@@ -97,10 +97,8 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("--frames", options.frames,
                    "images that could have been tracked; known by itself when GROUNDTRUTH is in a dataset")
       ->check(CLI::PositiveNumber);
-  eval->add_option("--axes", settings->axes,
-                   "axes of GROUNDTRUTH: y-down, y-up (ICL-NUIM as published), auto; default auto")
-      ->transform(CLI::CheckedTransformer(axes).description(""))
-      ->type_name("{y-down,y-up,auto}");
+  add_choice(*eval, "--axes", settings->axes, kAxesNames,
+             "axes of GROUNDTRUTH: y-down, y-up (ICL-NUIM as published), auto; default auto");
   eval->add_option("--json", settings->json, "write the figures to this file")->type_name("FILE");
   eval->add_option("--plot", settings->plot, "draw both trajectories from above into this SVG file")
       ->type_name("FILE");

@@ -100,7 +100,11 @@ std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::
 
 void write_top_view_file(const fs::path& path, const RunContext& context, const RunOutcome& outcome,
                          const std::optional<io::Evaluation>& evaluation) {
-  if (outcome.trajectory.empty()) return;
+  if (outcome.trajectory.empty()) {
+    std::error_code ignored;
+    fs::remove(path, ignored);  // of an earlier run into this folder
+    return;
+  }
   Sim3<double> truth_from_estimate;
   if (evaluation) truth_from_estimate = evaluation->truth_from_estimate;
   io::TopView view = io::comparison_view(context.dataset.ground_truth, outcome.trajectory,
@@ -183,6 +187,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"points", count_alive(outcome.map.points)},
                   {"lines", count_alive(outcome.map.lines)},
                   {"planes", count_alive(outcome.map.planes)},
+                  {"manhattan_frames", outcome.map.world_from_manhattan.size()},
                   {"loops", count_loops(outcome)},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},

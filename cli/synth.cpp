@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/choice_option.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
@@ -100,23 +101,6 @@ void run_synth(const SynthSettings& settings) {
               report.frames, report.path_metres, report.build_seconds,
               report.frames / std::max(report.render_seconds, 1e-6));
   if (report.interrupted) throw Stop{ExitCode::kInterrupted};
-}
-
-// An option whose value is one of a few words.
-template <class Value>
-void add_choice(CLI::App& app, const std::string& flag, Value& target,
-                const std::map<std::string, Value>& names, const std::string& meaning) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : names) words.push_back(name);
-  app.add_option_function<std::string>(
-         flag, [&target, &names](const std::string& word) { target = names.at(word); }, meaning)
-      ->type_name(words_type(words))
-      ->check([&names](const std::string& word) {
-        if (names.count(word) != 0) return std::string();
-        std::string known;
-        for (const auto& [name, value] : names) known += (known.empty() ? "" : ", ") + name;
-        return "'" + word + "' is not one of " + known;
-      });
 }
 
 // The settings must live until the application has been parsed.

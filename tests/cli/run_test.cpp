@@ -131,7 +131,7 @@ TEST_CASE("run takes each source of normals and each preset") {
 TEST_CASE("run takes its options from a file and its parameters from the command line") {
   const Copy copy;
   write(copy.scratch.path() / "run.toml",
-        "stride = 2\npreset = \"features\"\n[set]\nkeyframes.max_turn = 9\n");
+        "stride = 2\npreset = \"features\"\n[set]\nkeyframes.max_turn = 9\nkeyframes.min_gap = 5\n");
   const Outcome outcome =
       copy.run("--config " + (copy.scratch.path() / "run.toml").string() + " --set keyframes.min_gap=3");
   INFO(outcome.text);
