@@ -189,6 +189,31 @@ TEMPLATE_TEST_CASE("line: ends are trimmed to what the views show", "", float, d
   CHECK(std::abs(answer.parallax - std::atan(S(0.25))) < S(1e-4));
 }
 
+TEMPLATE_TEST_CASE("line: it runs the way that the first view shows it", "", float, double) {
+  using S = TestType;
+  int triangulated = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::vector<LineView<S>> views = make_scene({.noise = 0.2}, seed).as<S>();
+    for (const bool turned : {false, true}) {
+      if (turned) std::swap(views[0].segment.start, views[0].segment.end);
+      const Vec2<S> seen = views[0].segment.end - views[0].segment.start;
+      for (const S sign : {S(1), S(-1)}) {
+        const auto along = triangulate_line_along<S>(views, Vec3<S>(0, sign, 0));
+        for (const auto& answer : {triangulate_line<S>(views), along}) {
+          if (!usable(answer.status)) continue;
+          ++triangulated;
+          const auto project = [&](const Vec3<S>& x) {
+            return Vec3<S>(views[0].cam_from_world * x).hnormalized().eval();
+          };
+          CHECK(seen.dot(project(answer.end) - project(answer.start)) > 0);
+          CHECK(answer.line.direction.dot(answer.end - answer.start) > 0);
+        }
+      }
+    }
+  }
+  CHECK(triangulated > 50);
+}
+
 TEMPLATE_TEST_CASE("line: behind the cameras", "", float, double) {
   using S = TestType;
   std::vector<LineView<S>> views(2);

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "sslam/map/map.hpp"
 #include "sslam/track/tracked_frame.hpp"
 
 namespace sslam {

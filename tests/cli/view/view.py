@@ -57,7 +57,7 @@ def check_saved(program, scratch):
     view = View(program, run / "map.sslam")
     data, figures = view.data(), json.loads((run / "metrics.json").read_text())
     assert data["kind"] == "map" and data["folder"] == "map.sslam"
-    assert data["metrics"] == {name: figures[name] for name in ("keyframes", "points", "lines")}, data["metrics"]
+    assert data["metrics"] == {name: figures[name] for name in ("keyframes", "points", "lines", "planes")}, data["metrics"]
     assert view.end(signal.SIGTERM)[0] == 0
 
     # Half of it is gone.
