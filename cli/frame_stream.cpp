@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/frame_stream.hpp"
 
-#include <opencv2/core/utility.hpp>
 #include <utility>
 
 namespace sslam::cli {
 
 FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
     : dataset_(dataset), settings_(std::move(settings)), reader_(dataset) {
-  // OpenCV splits a loop among threads of its own unless another thread is in one just then, and how a
-  // network's sums are split shows in their last bits: frames would depend on timing.
-  cv::setNumThreads(1);
   frontend_.camera = settings_.camera;
   frontend_.normals = std::move(settings_.normals);
   producer_ = std::thread([this] { produce(); });
