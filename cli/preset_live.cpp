@@ -12,14 +12,11 @@ using Pipeline = live::Structure<double, WallTimer>;
 }  // namespace
 
 RunOutcome run_structure_live(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
-  Pipeline pipeline;
-  return track_sequence(pipeline, stream, settings, progress);
+  return run_pipeline<Pipeline>(stream, settings, progress);
 }
 
 RunOutcome run_lines_live(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
-  Pipeline pipeline;
-  pipeline.mapping.creation.options.use_points = false;
-  return track_sequence(pipeline, stream, settings, progress);
+  return run_pipeline<Pipeline>(stream, settings, progress, false);
 }
 
 }  // namespace sslam::cli

@@ -28,14 +28,11 @@ std::string describe_parameters() {
 }
 
 RunOutcome run_structure(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
-  Pipeline pipeline;
-  return track_sequence(pipeline, stream, settings, progress);
+  return run_pipeline<Pipeline>(stream, settings, progress);
 }
 
 RunOutcome run_lines(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
-  Pipeline pipeline;
-  pipeline.mapping.creation.options.use_points = false;
-  return track_sequence(pipeline, stream, settings, progress);
+  return run_pipeline<Pipeline>(stream, settings, progress, false);
 }
 
 }  // namespace sslam::cli

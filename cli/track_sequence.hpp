@@ -118,4 +118,13 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
   return outcome;
 }
 
+// The same with a pipeline of its own. Without `new_points` there are no points but those that start the map.
+template <class P>
+RunOutcome run_pipeline(FrameStream& stream, const TrackSettings& settings, Progress& progress,
+                        bool new_points = true) {
+  P pipeline;
+  pipeline.mapping.creation.options.use_points = new_points;
+  return track_sequence(pipeline, stream, settings, progress);
+}
+
 }  // namespace sslam::cli

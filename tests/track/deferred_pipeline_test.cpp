@@ -70,10 +70,7 @@ TEST_CASE("All that was posted is in the last map and the next frame goes on fro
 TEST_CASE("A later run goes on in the map of an earlier one and mapping comes late") {
   Simulation simulation(walk(140));
   presets::Structure<double> first;
-  for (std::size_t k = 0; k < 100; ++k) {
-    Frame<double> frame = simulation.frame(k);
-    (void)first.track(frame);
-  }
+  track_first(first, simulation, 100);
   LatePipeline second;
   second.resume(first.map());
   for (std::size_t k = 60; k < 140; ++k) {

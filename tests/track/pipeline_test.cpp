@@ -93,10 +93,7 @@ TEST_CASE("A covered lens is a loss with a reason and the pose is found again") 
 TEST_CASE("A later run finds its place in the map of an earlier one") {
   Simulation simulation(walk(140));
   presets::Structure<double> first;
-  for (std::size_t k = 0; k < 100; ++k) {
-    Frame<double> frame = simulation.frame(k);
-    (void)first.track(frame);
-  }
+  track_first(first, simulation, 100);
   REQUIRE(first.map().world_from_manhattan.size() == 1);
   presets::Structure<double> second;
   second.resume(first.map());

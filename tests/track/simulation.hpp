@@ -92,13 +92,18 @@ class Simulation {
 }
 
 template <class P>
-std::vector<TrackResult<double>> track_all(P& pipeline, Simulation& simulation) {
+std::vector<TrackResult<double>> track_first(P& pipeline, Simulation& simulation, std::size_t frames) {
   std::vector<TrackResult<double>> results;
-  for (std::size_t k = 0; k < simulation.size(); ++k) {
+  for (std::size_t k = 0; k < frames; ++k) {
     Frame<double> frame = simulation.frame(k);
     results.push_back(pipeline.track(frame));
   }
   return results;
+}
+
+template <class P>
+std::vector<TrackResult<double>> track_all(P& pipeline, Simulation& simulation) {
+  return track_first(pipeline, simulation, simulation.size());
 }
 
 // RMSE of the camera centres of the final trajectory after the best similarity: its ATE.

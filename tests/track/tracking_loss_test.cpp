@@ -71,6 +71,16 @@ TEST_CASE("Where one map after the other is askew, each is given twice the time"
   }
 }
 
+TEST_CASE("A map is undecided while it is young, or while what is seen of the Manhattan frame is little") {
+  TrackingLoss<double> loss;
+  CHECK(loss.undecided(map_of(2)));
+  CHECK_FALSE(loss.undecided(map_of(10)));  // where nothing is seen of one
+  weigh(loss, 14, 1);
+  CHECK(loss.undecided(map_of(10)));
+  weigh(loss, 1, 1);
+  CHECK_FALSE(loss.undecided(map_of(10)));
+}
+
 TEST_CASE("A given map is never given up") {
   TrackingLoss<double> loss;
   loss.begin_in_given_map();

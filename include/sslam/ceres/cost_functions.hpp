@@ -86,17 +86,18 @@ class RotationTieCost final : public ceres::SizedCostFunction<3, 7> {
   RotationTie<double> tie_;
 };
 
-// Block: line.
-class AxisTieCost final : public ceres::SizedCostFunction<2, 6> {
+// Block: a line, or a plane, of so many numbers and degrees of freedom; `load` reads it.
+template <int Size, int Dof, auto load>
+class AxisCost final : public ceres::SizedCostFunction<2, Size> {
  public:
-  AxisTieCost(const Vec3<double>& axis, double sigma) : axis_(axis), inverse_sigma_(1 / sigma) {}
+  AxisCost(const Vec3<double>& axis, double sigma) : axis_(axis), inverse_sigma_(1 / sigma) {}
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    Mat<double, 2, 4> derivative;
+    Mat<double, 2, Dof> derivative;
     const bool wanted = jacobians && jacobians[0];
     Eigen::Map<Vec2<double>> out(residuals);
-    out = inverse_sigma_ * axis_tie_residual(axis_, load_line(blocks[0]), wanted ? &derivative : nullptr);
-    if (wanted) put_jacobian<6>((inverse_sigma_ * derivative).eval(), jacobians[0]);
+    out = inverse_sigma_ * axis_tie_residual(axis_, load(blocks[0]), wanted ? &derivative : nullptr);
+    if (wanted) put_jacobian<Size>((inverse_sigma_ * derivative).eval(), jacobians[0]);
     return true;
   }
 
@@ -104,6 +105,8 @@ class AxisTieCost final : public ceres::SizedCostFunction<2, 6> {
   Vec3<double> axis_;
   double inverse_sigma_;
 };
+using AxisTieCost = AxisCost<6, 4, load_line>;
+using PlaneAxisCost = AxisCost<4, 3, load_plane>;
 
 // Block: pose of the free view. The centre of the held one does not move.
 class ScaleTieCost final : public ceres::SizedCostFunction<1, 7> {

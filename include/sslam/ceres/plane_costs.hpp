@@ -71,23 +71,4 @@ class PlaneHeldCost final : public ceres::SizedCostFunction<4, 4> {
   Mat<double, 4, 4> root_;
 };
 
-// Block: plane.
-class PlaneAxisCost final : public ceres::SizedCostFunction<2, 4> {
- public:
-  PlaneAxisCost(const Vec3<double>& axis, double sigma) : axis_(axis), inverse_sigma_(1 / sigma) {}
-
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    Mat<double, 2, 3> derivative;
-    const bool wanted = jacobians && jacobians[0];
-    Eigen::Map<Vec2<double>> out(residuals);
-    out = inverse_sigma_ * axis_tie_residual(axis_, load_plane(blocks[0]), wanted ? &derivative : nullptr);
-    if (wanted) put_jacobian<4>((inverse_sigma_ * derivative).eval(), jacobians[0]);
-    return true;
-  }
-
- private:
-  Vec3<double> axis_;
-  double inverse_sigma_;
-};
-
 }  // namespace sslam

@@ -74,7 +74,7 @@ class ManhattanRotation {
       const std::size_t index = (active_ + i) % count;
       track(index, frame);
       if (degenerate()) return index;  // too little is seen to tell it from another
-      if (usable(estimate_.status)) return name(frame);
+      if (usable(estimate_.status)) return name(index, frame);
     }
     return std::nullopt;
   }
@@ -91,19 +91,18 @@ class ManhattanRotation {
       frames.see_nothing();
       return std::nullopt;
     }
-    if (mapped || !frames.empty()) return name(frame);
+    if (mapped || !frames.empty()) return name(std::nullopt, frame);
     frames.begin();
     return 0;
   }
 
-  // Which frame the estimate shows; it is then estimated by the names that frame's axes have.
-  [[nodiscard]] std::optional<std::size_t> name(TrackedFrame<S>& frame) {
+  // Which frame the estimate shows. Unless it was found near that one, it is estimated anew by the names that
+  // frame's axes have.
+  [[nodiscard]] std::optional<std::size_t> name(std::optional<std::size_t> near, TrackedFrame<S>& frame) {
     const SO3<S> world_from_manhattan = predicted_.inverse() * estimate_.cam_from_manhattan;
     const std::optional<std::size_t> index = frames.which(world_from_manhattan);
     if (index) {
-      const SO3<S>& known = frames.world_from_manhattan()[*index];
-      if (closest_naming(world_from_manhattan, known).matrix() != world_from_manhattan.matrix())
-        track(*index, frame);
+      if (index != near) track(*index, frame);
       return usable(estimate_.status) || degenerate() ? index : std::nullopt;
     }
     if (!frames.see_unknown(world_from_manhattan)) return std::nullopt;

@@ -55,9 +55,10 @@ class TrackingLoss {
   [[nodiscard]] bool refutes(const Map<S>& map) const noexcept {
     return !given_ && (lost_young(map) || askew_ >= patience());
   }
-  // Whether that may still come to pass soon.
+  // Whether that may still come to pass soon. Where no Manhattan frame is seen, nothing can be askew to it.
   [[nodiscard]] bool undecided(const Map<S>& map) const noexcept {
-    return !given_ && (young(map) || square_ < give_up_after);
+    const bool weighed = square_ + askew_ > 0;
+    return !given_ && (young(map) || (weighed && square_ < give_up_after));
   }
 
   // Another map begins. Where one after the other is askew, the world is not as square as it looks: each of
