@@ -32,7 +32,8 @@ class LocalMapRefinement {
     const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
                                         matches_.point_inliers, matches_.line_inliers, prior);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, acceptance);
+    const PoseEstimate<S> estimate =
+        judge<S, 6>(matches_, pose, summary.information, acceptance, prior != nullptr);
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     count_matched(map, frame, [](LandmarkCommon& l) { ++l.found; });

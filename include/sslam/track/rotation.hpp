@@ -27,7 +27,7 @@ class ManhattanRotation {
   SearchOptions<S> search;  // of a frame that is not known yet; its `rotation` options serve every later one
   ManhattanFrames<S> frames;
   std::uint64_t seed = 1;
-  S squareness = radians(S(0.5));  // how far walls and edges stand from right angles: floor of every sigma
+  S squareness = radians(S(0.1));  // how far walls and edges stand from right angles: floor of every sigma
   S max_sigma = radians(S(1.5));   // largest standard deviation, about any axis, of a trusted rotation
 
   // Estimates the frame's rotation near the prediction and leaves it, with the axes of its lines, in the

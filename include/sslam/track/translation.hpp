@@ -68,12 +68,12 @@ class DecoupledTranslation {
                                           TrackedFrame<S>& frame) {
     match_recent(map, recent, S(1), match, frame);
     matches_.gather(map, frame);
-    if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
+    if (static_cast<int>(matches_.size()) < acceptance.min_inliers_turned) return {};
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                                solver, matches_.point_inliers, matches_.line_inliers);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance);
+    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance, true);
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     frame.cam_from_world = pose;
