@@ -41,10 +41,10 @@ inline constexpr double kIclNuimFrameRate = 30;
   for (const std::filesystem::path& image : list_files(root / "rgb", is_numbered_image)) {
     FrameEntry frame;
     frame.stamp = parse_number<double>(image.stem().string()).value_or(0);
-    frame.image = image;
+    frame.image = image.string();
     const std::filesystem::path depth = root / "depth" / (image.stem().string() + ".png");
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(depth, ignored)) frame.depth = depth;
+    if (std::filesystem::is_regular_file(depth, ignored)) frame.depth = depth.string();
     dataset.frames.push_back(std::move(frame));
   }
   if (dataset.frames.empty())
