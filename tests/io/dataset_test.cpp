@@ -157,6 +157,34 @@ TEST_CASE("ICL-NUIM layout: numbers are stamps and poses are turned to y down") 
   CHECK(io::known_camera_for(dataset)->camera.pinhole.fy == 480);
 }
 
+TEST_CASE("Numbered images are ICL-NUIM's where something says so") {
+  const ScratchFolder scratch;
+  for (int i = 0; i < 3; ++i) scratch.write("rgb/" + std::to_string(i) + ".png");
+  const auto refused = [&] {
+    return contains(error_opening(scratch.path()), ": nothing says what its rgb/N.png are; wants rgb.txt");
+  };
+  SECTION("nothing does") {
+    CHECK(refused());
+    CHECK(contains(error_opening(scratch.path()), "name " + (scratch.path() / "rgb").string()));
+    CHECK(io::open_dataset(scratch.path() / "rgb").layout == io::Layout::kImages);
+  }
+  SECTION("a ground truth in seconds is TUM RGB-D's without its rgb.txt") {
+    scratch.write("groundtruth.txt", "# stamps\n0" + std::string(kIdentity) + "0.5" + kIdentity);
+    scratch.write("associations.txt", "0.5 rgb/1.png 0.52 depth/1.png\n");
+    CHECK(refused());
+    scratch.write("rgb.txt", "0 rgb/0.png\n0.5 rgb/1.png\n");
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kTum);
+  }
+  SECTION("a ground truth that counts frames") {
+    scratch.write("groundtruth.txt", "0" + std::string(kIdentity) + "1" + kIdentity);
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kIclNuim);
+  }
+  SECTION("the list of the published images") {
+    scratch.write("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kIclNuim);
+  }
+}
+
 TEST_CASE("7-Scenes layout: matrices are poses") {
   const ScratchFolder scratch;
   for (int i = 0; i < 3; ++i) {
