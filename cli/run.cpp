@@ -36,17 +36,17 @@ void run(RunSettings settings) {
   }
   TrackSettings track;
   track.seed = settings.seed;
-  for (const std::string& text : settings.set) track.overrides.push_back(parse_override(text));
+  track.overrides = check_overrides(preset, settings.set);
   if (!settings.map.empty()) track.map = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
-  io::prepare_output_folder(settings.out);
 
   StreamSettings stream_settings;
   stream_settings.camera = camera.camera;
   stream_settings.depth_factor = camera.depth_factor;
   stream_settings.normals = choose_normals(settings.normals);
+  io::prepare_output_folder(settings.out);
   if (settings.live) stream_settings.pace = dataset.seconds_per_stamp;
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -41,9 +42,11 @@ void override_parameters(P& pipeline, const std::vector<ParameterValue>& overrid
       if (wanted.name != name) return;
       using Value = std::remove_reference_t<decltype(value)>;
       const double inside = unit == Unit::kDegrees ? wanted.value / kDegreesPerRadian : wanted.value;
+      if (inside < 0) throw io::Error("--set " + wanted.name + ": wants no negative number");
       if constexpr (std::is_integral_v<Value>) {
-        if (inside != std::floor(inside) || inside < 0)
-          throw io::Error("--set " + wanted.name + ": wants a whole number, not negative");
+        constexpr Value kMost = std::numeric_limits<Value>::max();
+        if (inside != std::floor(inside) || inside >= static_cast<double>(kMost))
+          throw io::Error("--set " + wanted.name + ": wants a whole number below " + std::to_string(kMost));
       }
       value = static_cast<Value>(inside);
       known = true;
