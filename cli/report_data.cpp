@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "cli/base64.hpp"
 #include "cli/overlay_colours.hpp"
@@ -215,10 +216,10 @@ nlohmann::ordered_json report_data(RunFolder& run) {
   return DataMaker(run).make();
 }
 
-std::vector<std::string> choose_views(const std::vector<std::string>& views) {
+std::vector<std::string_view> choose_views(const std::vector<std::string>& views) {
   constexpr std::size_t kBudget = 10'600'000;  // bytes: 14.1 MB as text
   for (std::size_t count = views.size();;) {
-    std::vector<std::string> chosen;
+    std::vector<std::string_view> chosen;
     std::size_t size = 0;
     for (std::size_t i = 0; i < count; ++i) {
       chosen.push_back(views[i * views.size() / count]);
