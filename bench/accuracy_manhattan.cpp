@@ -137,15 +137,16 @@ void run_dataset(const Settings& settings, Source source, Runner& runner) {
   frontend.camera = known->camera;
   Frame<double> frame;
   for (const io::FrameEntry& entry : dataset.frames) {
-    if (!entry.world_from_cam) continue;
+    const SE3<double>* const world_from_cam = dataset.world_from_cam(entry);
+    if (world_from_cam == nullptr) continue;
     ImageInput input;
-    input.image = cv::imread(entry.image.string(), cv::IMREAD_COLOR);
-    if (!entry.depth.empty()) input.depth = cv::imread(entry.depth.string(), cv::IMREAD_UNCHANGED);
+    input.image = cv::imread(entry.image, cv::IMREAD_COLOR);
+    if (!entry.depth.empty()) input.depth = cv::imread(entry.depth, cv::IMREAD_UNCHANGED);
     input.depth_factor = known->depth_factor;
     if (frontend.process(input, frame).image != ImageStatus::kOk) continue;
     Votes votes;
     votes.stamp = entry.stamp;
-    votes.cam_from_world = entry.world_from_cam->rotation.inverse();
+    votes.cam_from_world = world_from_cam->rotation.inverse();
     if (settings.normals && source.fill(input, frontend.camera, votes.normals) != NormalStatus::kOk)
       votes.normals.clear();
     if (settings.lines) {

@@ -35,19 +35,20 @@ class FrameReader {
     cv::Mat image;
     while (next_ < entry.index && video_.grab()) ++next_;
     if (next_ == entry.index && video_.read(image)) ++next_;
-    if (image.empty()) why = entry.image.string() + ": cannot decode frame " + std::to_string(entry.index);
+    if (image.empty()) why = entry.image + ": cannot decode frame " + std::to_string(entry.index);
     return image;
   }
 
   // For people.
   [[nodiscard]] std::string label(const io::FrameEntry& entry) const {
-    const std::string file = entry.image.filename().string();
+    const std::string file = std::filesystem::path(entry.image).filename().string();
     return is_video() ? file + " frame " + std::to_string(entry.index) : file;
   }
 
   // The name, without folder and extension, of files that belong to the frame, such as its normals.
   [[nodiscard]] std::string stem(const io::FrameEntry& entry) const {
-    return is_video() ? video_frame_stem(entry.image, entry.index) : entry.image.stem().string();
+    return is_video() ? video_frame_stem(entry.image, entry.index)
+                      : std::filesystem::path(entry.image).stem().string();
   }
 
  private:

@@ -25,14 +25,14 @@ class WallTimer {
   void end(Stage stage) noexcept {
     const auto now = Clock::now();
     milliseconds[static_cast<std::size_t>(stage)] +=
-        std::chrono::duration<double, std::milli>(now - last_).count();
+        std::chrono::duration<float, std::milli>(now - last_).count();
     last_ = now;
   }
-  [[nodiscard]] double total() const noexcept {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  [[nodiscard]] float total() const noexcept {
+    return std::chrono::duration<float, std::milli>(Clock::now() - start_).count();
   }
 
-  std::array<double, kStageCount> milliseconds{};
+  std::array<float, kStageCount> milliseconds{};
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -40,17 +40,18 @@ class WallTimer {
 };
 static_assert(StageTimer<WallTimer>);
 
+// One for each frame of the run, however long it is: times are floats.
 struct FrameRecord {
   TrackResult<double> result;
   std::string image;                       // file name, for people
   int points = 0, lines = 0, normals = 0;  // features found
   NormalStatus normal_status = NormalStatus::kOk;
-  std::array<double, kStageCount> stage_ms{};  // of the tracker's stages
-  double points_ms = 0, lines_ms = 0, normals_ms = 0;
-  double extraction_ms = 0;  // wall clock of the front end
-  double tracking_ms = 0;    // wall clock of the tracker
+  std::array<float, kStageCount> stage_ms{};  // of the tracker's stages
+  float points_ms = 0, lines_ms = 0, normals_ms = 0;
+  float extraction_ms = 0;  // wall clock of the front end
+  float tracking_ms = 0;    // wall clock of the tracker
 
-  [[nodiscard]] double frame_ms() const noexcept { return extraction_ms + tracking_ms; }
+  [[nodiscard]] float frame_ms() const noexcept { return extraction_ms + tracking_ms; }
 };
 
 struct ParameterValue {
@@ -61,7 +62,6 @@ struct ParameterValue {
 struct RunOutcome {
   std::vector<FrameRecord> frames;
   io::Trajectory trajectory;  // by the keyframes' final poses, world from camera
-  io::Trajectory live;        // as reported when each frame was tracked
   io::Trajectory keyframes;   // those that this run added to the map
   Map<double> map;
   std::vector<ParameterValue> parameters;

@@ -82,7 +82,7 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   out.report = frontend_.process(input, out.frame);
   out.usable = out.report.image == ImageStatus::kOk;
   if (!out.usable) {
-    if (why.empty()) why = entry.image.string() + ": " + name(out.report.image);
+    if (why.empty()) why = entry.image + ": " + name(out.report.image);
     out.warning = why + "; frame skipped";
     return;
   }
@@ -93,7 +93,7 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   const bool fine =
       out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
   if (!fine && out.warning.empty())
-    out.warning = entry.image.string() + ": " + name(out.report.normals) + "; lines alone for this frame";
+    out.warning = entry.image + ": " + name(out.report.normals) + "; lines alone for this frame";
 }
 
 void FrameStream::keep_pictures(const ImageInput& input, ExtractedFrame& out) const {

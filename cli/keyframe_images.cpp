@@ -31,10 +31,10 @@ std::map<std::int64_t, NamedFrame> named_frames(const io::CsvTable& frames) {
   const std::size_t index = frames.column("index"), stamp = frames.column("stamp"),
                     image = frames.column("image"), none = frames.columns.size();
   if (index == none || stamp == none || image == none) return named;
-  for (const auto& row : frames.rows) {
-    const auto number = io::parse_number<std::int64_t>(row[index]);
-    const auto time = io::parse_number<double>(row[stamp]);
-    if (number && time) named[*number] = {*time, image_name(row[image], *number)};
+  for (std::size_t row = 0; row < frames.rows(); ++row) {
+    const auto number = io::parse_number<std::int64_t>(frames.cell(row, index));
+    const auto time = io::parse_number<double>(frames.cell(row, stamp));
+    if (number && time) named[*number] = {*time, image_name(std::string(frames.cell(row, image)), *number)};
   }
   return named;
 }

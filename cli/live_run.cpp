@@ -76,7 +76,7 @@ void LiveRun::take_over() {
     taken = std::exchange(handover_, {});
     handover_.version = taken.version;
   }
-  for (const FrameRecord& frame : taken.frames) run_.frames.rows.push_back(frame_cells(frame));
+  for (const FrameRecord& frame : taken.frames) run_.frames.add_row(frame_cells(frame));
   run_.map = std::move(taken.map);
   run_.trajectory = std::move(taken.trajectory);
   run_.keyframes = std::move(taken.keyframes);
@@ -86,7 +86,7 @@ void LiveRun::take_over() {
 }
 
 nlohmann::ordered_json LiveRun::data() {
-  const std::size_t count = run_.frames.rows.size(), tracked = run_.trajectory.size();
+  const std::size_t count = run_.frames.rows(), tracked = run_.trajectory.size();
   run_.metrics["frames"] = count;
   run_.metrics["tracked"] = tracked;
   run_.metrics["share_tracked"] =

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cli/base64.hpp"
 #include "cli/commands.hpp"
@@ -20,17 +22,14 @@ namespace sslam::cli {
 namespace {
 
 // JSON that may stand inside a script element: no name in it can end the element.
-std::string script_json(const nlohmann::ordered_json& data) {
+void append_script_json(const nlohmann::ordered_json& data, std::string& html) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
   for (const char c : text) {
     if (c == '<')
-      safe += "\\u003c";
+      html += "\\u003c";
     else
-      safe += c;
+      html += c;
   }
-  return safe;
 }
 
 }  // namespace
@@ -38,9 +37,13 @@ std::string script_json(const nlohmann::ordered_json& data) {
 std::string report_html(const nlohmann::ordered_json& data, const std::vector<std::string>& views) {
   const ReportPage page = report_page();
   std::string html(page.before_data);
-  html += script_json(data);
+  append_script_json(data, html);
   html += page.before_views;
-  for (const std::string& view : choose_views(views)) html += base64(view) + '\n';
+  const std::vector<std::string_view> chosen = choose_views(views);
+  std::size_t size = html.size() + page.after_views.size();
+  for (const std::string_view view : chosen) size += base64_size(view.size()) + 1;
+  html.reserve(size);  // megabytes, of which doubling would ask for up to three times as many
+  for (const std::string_view view : chosen) html += base64(view) + '\n';
   return html += page.after_views;
 }
 
@@ -48,7 +51,9 @@ std::string report_of(const std::filesystem::path& folder) {
   RunFolder run = read_run_folder(folder);
   const nlohmann::ordered_json data = report_data(run);
   print_warnings(run.problems);
-  return report_html(data, run.views);
+  const std::vector<std::string> views = std::move(run.views);
+  run = {};  // the rest is in the data now
+  return report_html(data, views);
 }
 
 void write_report(const std::filesystem::path& folder, const std::string& page) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "cli/base64.hpp"
 #include "cli/overlay_colours.hpp"
@@ -27,7 +28,10 @@ template <class Target>
 Json packed(const char* type, std::span<const double> values) {
   io::ByteWriter out;
   for (const double value : values) out(static_cast<Target>(value));
-  return {{"type", type}, {"base64", base64(out.bytes)}};
+  Json array;
+  array["type"] = type;
+  array["base64"] = base64(out.bytes);
+  return array;
 }
 
 Json floats(std::span<const double> values) {
@@ -53,16 +57,16 @@ Json poses_json(const io::Trajectory& poses) {
 // Numbers where every cell is one, else text as codes into a list of names.
 Json column_json(const io::CsvTable& table, std::size_t column) {
   std::vector<double> numbers;
-  for (const auto& row : table.rows)
-    if (const auto number = io::parse_number<double>(row[column])) numbers.push_back(*number);
-  if (numbers.size() == table.rows.size())
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    if (const auto number = io::parse_number<double>(table.cell(row, column))) numbers.push_back(*number);
+  if (numbers.size() == table.rows())
     return table.columns[column] == "stamp" ? packed<double>("f64", numbers) : floats(numbers);
-  std::map<std::string, std::size_t> known;
+  std::map<std::string_view, std::size_t> known;
   Json names = Json::array();
   std::vector<double> codes;
-  for (const auto& row : table.rows) {
-    const auto [at, fresh] = known.emplace(row[column], known.size());
-    if (fresh) names.push_back(row[column]);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto [at, fresh] = known.emplace(table.cell(row, column), known.size());
+    if (fresh) names.push_back(at->first);
     codes.push_back(static_cast<double>(at->second));
   }
   return {{"names", names}, {"codes", packed<std::uint32_t>("u32", codes)}};
@@ -98,8 +102,8 @@ class DataMaker {
     const io::CsvTable& frames = run.frames;
     const std::size_t stamp = frames.column("stamp");
     if (stamp == frames.columns.size()) return;
-    for (std::size_t row = 0; row < frames.rows.size(); ++row)
-      if (const auto value = io::parse_number<double>(frames.rows[row][stamp])) row_of_[*value] = row;
+    for (std::size_t row = 0; row < frames.rows(); ++row)
+      if (const auto value = io::parse_number<double>(frames.cell(row, stamp))) row_of_[*value] = row;
   }
 
   [[nodiscard]] Json make() {
@@ -107,7 +111,8 @@ class DataMaker {
     Json columns = Json::object();
     for (std::size_t c = 0; c < run_.frames.columns.size(); ++c)
       columns[run_.frames.columns[c]] = column_json(run_.frames, c);
-    data_["frames"] = {{"count", run_.frames.rows.size()}, {"columns", columns}};
+    data_["frames"]["count"] = run_.frames.rows();
+    data_["frames"]["columns"] = std::move(columns);
     add_poses();
     data_["overlay"] = overlay_json();
     data_["keyframes"] = poses_json(run_.keyframes);
@@ -133,7 +138,7 @@ class DataMaker {
 
   void add_poses() {
     constexpr std::size_t kSize = 7;
-    std::vector<double> poses(run_.frames.rows.size() * kSize, kNone64);
+    std::vector<double> poses(run_.frames.rows() * kSize, kNone64);
     std::size_t strangers = 0;
     for (const io::StampedPose& pose : run_.trajectory) {
       const auto row = row_of(pose.stamp);
@@ -193,7 +198,7 @@ class DataMaker {
     const io::PairedPoses paired = io::pair_poses(run_.truth, run_.trajectory, alignment->max_difference);
     const std::vector<double> distances = io::position_errors(paired, truth_from_map);
     const std::vector<double> angles = io::rotation_errors(paired, io::rotation_offset(paired));
-    std::vector<double> position(run_.frames.rows.size(), kNone64), rotation = position;
+    std::vector<double> position(run_.frames.rows(), kNone64), rotation = position;
     for (std::size_t i = 0; i < paired.estimate.size(); ++i) {
       const auto row = row_of(paired.estimate[i].stamp);
       if (!row) continue;
@@ -215,10 +220,10 @@ nlohmann::ordered_json report_data(RunFolder& run) {
   return DataMaker(run).make();
 }
 
-std::vector<std::string> choose_views(const std::vector<std::string>& views) {
+std::vector<std::string_view> choose_views(const std::vector<std::string>& views) {
   constexpr std::size_t kBudget = 10'600'000;  // bytes: 14.1 MB as text
   for (std::size_t count = views.size();;) {
-    std::vector<std::string> chosen;
+    std::vector<std::string_view> chosen;
     std::size_t size = 0;
     for (std::size_t i = 0; i < count; ++i) {
       chosen.push_back(views[i * views.size() / count]);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/run_folder.hpp"
@@ -15,6 +16,6 @@ namespace sslam::cli {
 [[nodiscard]] nlohmann::ordered_json report_data(RunFolder& run);
 
 // As many of the views, evenly spaced, as fit into the page.
-[[nodiscard]] std::vector<std::string> choose_views(const std::vector<std::string>& views);
+[[nodiscard]] std::vector<std::string_view> choose_views(const std::vector<std::string>& views);
 
 }  // namespace sslam::cli

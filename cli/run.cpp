@@ -25,6 +25,14 @@
 #include "sslam/io/map_file.hpp"
 
 namespace sslam::cli {
+namespace {
+
+// Why the last frame has no pose, if it has none.
+std::string last_reason_of(const RunOutcome& outcome) {
+  return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
+}
+
+}  // namespace
 
 void run(RunSettings settings) {
   const Preset& preset = find_preset(settings.preset);
@@ -36,17 +44,17 @@ void run(RunSettings settings) {
   }
   TrackSettings track;
   track.seed = settings.seed;
-  for (const std::string& text : settings.set) track.overrides.push_back(parse_override(text));
+  track.overrides = check_overrides(preset, settings.set);
   if (!settings.map.empty()) track.map = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
-  io::prepare_output_folder(settings.out);
 
   StreamSettings stream_settings;
   stream_settings.camera = camera.camera;
   stream_settings.depth_factor = camera.depth_factor;
   stream_settings.normals = choose_normals(settings.normals);
+  io::prepare_output_folder(settings.out);
   if (settings.live) stream_settings.pace = dataset.seconds_per_stamp;
   stream_settings.use_points = preset.use_points;
   stream_settings.use_lines = preset.use_lines;
@@ -66,24 +74,23 @@ void run(RunSettings settings) {
   FrameStream stream(dataset, std::move(stream_settings));
   if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
   Progress progress(stream.size(), settings.verbosity, "run");
-  const RunOutcome outcome = (settings.live ? preset.run_live : preset.run)(stream, track, progress);
+  RunOutcome outcome = (settings.live ? preset.run_live : preset.run)(stream, track, progress);
   print_warnings(outcome.warnings);
   write_run(context, outcome);
+  const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();
+  const std::string last_reason = last_reason_of(outcome);
+  outcome = {};  // the report is made from the files, and needs the room
   std::string page;
   if (settings.report || live) page = report_of(settings.out);
   if (settings.report) write_report(settings.out, page);
   if (video) video->commit();
-  if (outcome.interrupted) {
+  if (interrupted) {
     print_warning("interrupted; what had been computed was written");
     throw Stop{ExitCode::kInterrupted};
   }
-  if (outcome.trajectory.empty()) {
-    const char* const reason =
-        outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
-    print_error(settings.dataset + ": no frame was tracked; last reason: " + reason);
-  }
+  if (!tracked) print_error(settings.dataset + ": no frame was tracked; last reason: " + last_reason);
   if (live) live->show(std::move(page));
-  if (outcome.trajectory.empty()) throw Stop{ExitCode::kFailed};
+  if (!tracked) throw Stop{ExitCode::kFailed};
 }
 
 void add_run_command(CLI::App& app) {

@@ -2,7 +2,11 @@
 #include "cli/run_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "cli/image_file.hpp"
 #include "cli/messages.hpp"
@@ -10,6 +14,40 @@
 #include "sslam/io/text.hpp"
 
 namespace sslam::cli {
+namespace {
+
+ParameterValue parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto value =
+      equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
+  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
+  return {text.substr(0, equals), *value};
+}
+
+// Parameters of which one must stay below another, and what a run would else do without a word.
+struct Order {
+  std::string_view low, high, otherwise;
+};
+constexpr std::array<Order, 2> kOrders{{
+    {"rotation.squareness", "rotation.max_sigma", "no rotation would be trusted"},
+    {"rotation.narrowest_kernel", "rotation.widest_kernel", "the search could not narrow"},
+}};
+
+void check_orders(const std::vector<ParameterValue>& parameters) {
+  const auto find = [&](std::string_view name) {
+    return std::find_if(parameters.begin(), parameters.end(),
+                        [name](const ParameterValue& parameter) { return parameter.name == name; });
+  };
+  for (const Order& order : kOrders) {
+    const auto low = find(order.low), high = find(order.high);
+    if (low == parameters.end() || high == parameters.end() || low->value < high->value) continue;
+    char values[80];
+    std::snprintf(values, sizeof values, "%g is not below the %g of ", low->value, high->value);
+    throw io::Error("--set " + low->name + ": " + values + high->name + ": " + std::string(order.otherwise));
+  }
+}
+
+}  // namespace
 
 const Preset& find_preset(const std::string& wanted) {
   std::string known;
@@ -18,14 +56,6 @@ const Preset& find_preset(const std::string& wanted) {
     known += (known.empty() ? "" : ", ") + std::string(preset.name);
   }
   throw io::Error("--preset " + wanted + ": not known; use one of " + known);
-}
-
-ParameterValue parse_override(const std::string& text) {
-  const auto equals = text.find('=');
-  const auto value =
-      equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
-  return {text.substr(0, equals), *value};
 }
 
 io::Dataset open_run_dataset(const RunSettings& settings) {
@@ -72,14 +102,15 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
     throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
 
-void check_overrides(const Preset& preset, const std::vector<std::string>& set) {
+std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
   TrackSettings track;
   for (const std::string& text : set) track.overrides.push_back(parse_override(text));
   // A run over no frames refuses what a run over many would.
   const io::Dataset nothing;
   FrameStream stream(nothing, {});
   Progress silent(0, Verbosity::kQuiet, "run");
-  (void)preset.run(stream, track, silent);
+  check_orders(preset.run(stream, track, silent).parameters);
+  return std::move(track.overrides);
 }
 
 }  // namespace sslam::cli

@@ -15,9 +15,6 @@ namespace sslam::cli {
 
 [[nodiscard]] const Preset& find_preset(const std::string& wanted);
 
-// "stage.parameter=value"
-[[nodiscard]] ParameterValue parse_override(const std::string& text);
-
 // The frames that the settings ask for.
 [[nodiscard]] io::Dataset open_run_dataset(const RunSettings& settings);
 
@@ -30,7 +27,7 @@ void check_live(const RunSettings& settings, const Preset& preset);
 // Whether the dataset has what settings.normals need.
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 
-// Whether the preset has all these parameters, and they take these values.
-void check_overrides(const Preset& preset, const std::vector<std::string>& set);
+// Each "stage.parameter=value", if the preset has all these parameters and they take these values.
+std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set);
 
 }  // namespace sslam::cli

@@ -98,6 +98,15 @@ std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::
   }
 }
 
+// Each pose as it was reported when its frame was tracked.
+io::Trajectory live_trajectory(const RunOutcome& outcome) {
+  io::Trajectory live;
+  live.reserve(outcome.frames.size());
+  for (const FrameRecord& frame : outcome.frames)
+    if (frame.result.has_pose()) live.push_back({frame.result.stamp, frame.result.cam_from_world.inverse()});
+  return live;
+}
+
 void write_top_view_file(const fs::path& path, const RunContext& context, const RunOutcome& outcome,
                          const std::optional<io::Evaluation>& evaluation) {
   if (outcome.trajectory.empty()) {
@@ -163,7 +172,8 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
 void write_run(const RunContext& context, const RunOutcome& outcome) {
   const fs::path out = context.settings.out;
   io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
-  io::write_trajectory(out / "trajectory_live.txt", outcome.live);
+  const io::Trajectory live = live_trajectory(outcome);
+  io::write_trajectory(out / "trajectory_live.txt", live);
   io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
   write_map_ply(out / "map.ply", outcome.map);
   // What an earlier run in this folder has left must not pass for this one's.
@@ -175,10 +185,10 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   if (!outcome.views.empty()) write_views(out / kViewFile, outcome.views);
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);
-  const auto live = evaluate_run(context, outcome.live);
+  const auto live_evaluation = evaluate_run(context, live);
   Json metrics = {{"frames", context.dataset.frames.size()},
                   {"tracked", outcome.trajectory.size()},
-                  {"tracked_live", outcome.live.size()},
+                  {"tracked_live", live.size()},
                   {"share_tracked", static_cast<double>(outcome.trajectory.size()) /
                                         static_cast<double>(context.dataset.frames.size())},
                   {"interrupted", outcome.interrupted},
@@ -193,7 +203,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"times", times_json(outcome)}};
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
-  if (live) metrics["trajectory_live"] = evaluation_json(*live);
+  if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);
   metrics["warnings"] = outcome.warnings;
   Json settings = settings_json(context), parameters;
   for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;

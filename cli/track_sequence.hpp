@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ namespace detail {
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
+constexpr float milliseconds(double seconds) noexcept {
+  return static_cast<float>(seconds * 1e3);
+}
+
 template <class P>
 std::vector<ParameterValue> list_parameters(P& pipeline) {
   std::vector<ParameterValue> values;
@@ -41,9 +46,11 @@ void override_parameters(P& pipeline, const std::vector<ParameterValue>& overrid
       if (wanted.name != name) return;
       using Value = std::remove_reference_t<decltype(value)>;
       const double inside = unit == Unit::kDegrees ? wanted.value / kDegreesPerRadian : wanted.value;
+      if (inside < 0) throw io::Error("--set " + wanted.name + ": wants no negative number");
       if constexpr (std::is_integral_v<Value>) {
-        if (inside != std::floor(inside) || inside < 0)
-          throw io::Error("--set " + wanted.name + ": wants a whole number, not negative");
+        constexpr Value kMost = std::numeric_limits<Value>::max();
+        if (inside != std::floor(inside) || inside >= static_cast<double>(kMost))
+          throw io::Error("--set " + wanted.name + ": wants a whole number below " + std::to_string(kMost));
       }
       value = static_cast<Value>(inside);
       known = true;
@@ -58,6 +65,7 @@ void collect_map(const P& pipeline, std::size_t known_keyframes, RunOutcome& out
   const auto& map = pipeline.map();
   outcome.map = map;
   outcome.keyframes = keyframe_poses(map, known_keyframes);
+  outcome.trajectory.reserve(pipeline.trajectory().entries().size());
   for (const auto& entry : pipeline.trajectory().entries())
     outcome.trajectory.push_back({entry.stamp, pipeline.trajectory().pose(map, entry).inverse()});
   const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };
@@ -89,15 +97,13 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
     record.lines = static_cast<int>(input.frame.lines.size());
     record.normals = static_cast<int>(input.frame.normals.size());
     record.normal_status = input.report.normals;
-    record.points_ms = input.report.points_time * 1e3;
-    record.lines_ms = input.report.lines_time * 1e3;
-    record.normals_ms = input.report.normals_time * 1e3;
-    record.extraction_ms = input.report.total_time * 1e3;
+    record.points_ms = detail::milliseconds(input.report.points_time);
+    record.lines_ms = detail::milliseconds(input.report.lines_time);
+    record.normals_ms = detail::milliseconds(input.report.normals_time);
+    record.extraction_ms = detail::milliseconds(input.report.total_time);
     record.result = pipeline.track(input.frame);
     record.tracking_ms = pipeline.timer.total();
     record.stage_ms = pipeline.timer.milliseconds;
-    if (record.result.has_pose())
-      outcome.live.push_back({record.result.stamp, record.result.cam_from_world.inverse()});
     const std::size_t row = outcome.frames.size();
     const FrameViewInput view{row, input.picture, input.normal_picture, stream.camera(),
                               pipeline.map().world_from_manhattan};

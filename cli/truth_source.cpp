@@ -30,7 +30,7 @@ std::optional<io::Dataset> dataset_around(const std::filesystem::path& file) {
   const std::filesystem::path folder =
       file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   if (file.filename() != "groundtruth.txt" && file.extension() != ".freiburg") return std::nullopt;
-  if (!io::is_tum(folder) && !io::is_icl_nuim(folder)) return std::nullopt;
+  if (!io::is_tum(folder) && !io::has_numbered_images(folder)) return std::nullopt;
   try {
     return io::open_dataset(folder);
   } catch (const io::Error&) {

@@ -29,4 +29,5 @@
 #include "sslam/opencv/same_camera.hpp"
 #include "sslam/opencv/segment_merger.hpp"
 #include "sslam/opencv/segment_refiner.hpp"
+#include "sslam/opencv/side_thread.hpp"
 #include "sslam/opencv/undistorter.hpp"

@@ -145,11 +145,11 @@ TEST_CASE("verbose runs tell of each change of state and each keyframe, with the
   std::vector<std::string> problems;
   const auto table = sslam::io::read_csv(copy.out / "frames.csv", problems);
   const std::size_t state = table.column("state"), keyframe = table.column("keyframe");
-  std::string last;
+  std::string_view last;
   std::size_t wanted = 0, told = 0;
-  for (const auto& row : table.rows) {
-    wanted += row[state] != last || row[keyframe] == "1" ? 1U : 0U;
-    last = row[state];
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    wanted += table.cell(row, state) != last || table.cell(row, keyframe) == "1" ? 1U : 0U;
+    last = table.cell(row, state);
   }
   for (const std::string& line : lines_of(streams.err)) told += line.starts_with("frame ") ? 1U : 0U;
   REQUIRE(told == wanted);

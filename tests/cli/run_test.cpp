@@ -240,7 +240,18 @@ TEST_CASE("run refuses what it cannot use with one line") {
   require_refused(copy.run("--preset velvet"), "--preset velvet");
   require_refused(copy.run("--set keyframes.min_gap=many"), "--set keyframes.min_gap=many");
   require_refused(copy.run("--set keyframes.gap=2"), "no such parameter");
+  require_refused(copy.run("--preset features --set rotation.frames=2"), "no such parameter");
+  require_refused(copy.run("--set keyframes.min_gap=2.5"), "--set keyframes.min_gap: wants a whole number");
+  require_refused(copy.run("--set keyframes.min_gap=1e10"), "wants a whole number below 2147483647");
+  require_refused(copy.run("--set keyframes.max_turn=-8"),
+                  "--set keyframes.max_turn: wants no negative number");
+  require_refused(copy.run("--set rotation.squareness=3"),
+                  "--set rotation.squareness: 3 is not below the 1.5 of rotation.max_sigma: no rotation "
+                  "would be trusted");
+  require_refused(copy.run("--set rotation.widest_kernel=1"),
+                  "--set rotation.narrowest_kernel: 2 is not below the 1 of rotation.widest_kernel");
   require_refused(copy.run("--start 1000"), "no frame from 1000");
+  REQUIRE_FALSE(fs::exists(copy.out));  // none of these has begun to write
   write(copy.folder / "camera.yaml",
         "%YAML:1.0\n---\nCamera.fx: 360.0\nCamera.fy: .nan\nCamera.cx: 239.5\nCamera.cy: 179.5\n");
   require_refused(copy.run(), "Camera.fy");

@@ -47,7 +47,8 @@ double difference(const cv::Mat& a, const cv::Mat& b) {
 std::vector<std::string> states(const fs::path& run) {
   std::vector<std::string> problems, states;
   const auto table = sslam::io::read_csv(run / "frames.csv", problems);
-  for (const auto& row : table.rows) states.push_back(row[table.column("state")]);
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    states.emplace_back(table.cell(row, table.column("state")));
   return states;
 }
 

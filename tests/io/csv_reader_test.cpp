@@ -32,10 +32,10 @@ TEST_CASE("A table is read as it was written") {
   CHECK(warnings.empty());
   CHECK(table.column("value") == 1);
   CHECK(table.column("none") == 2);
-  REQUIRE(table.rows.size() == 2);
-  CHECK(table.rows[0][0] == "a, \"b\"\nc");
-  CHECK(table.rows[0][1] == "1.5");
-  CHECK(table.rows[1][0].empty());
+  REQUIRE(table.rows() == 2);
+  CHECK(table.cell(0, 0) == "a, \"b\"\nc");
+  CHECK(table.cell(0, 1) == "1.5");
+  CHECK(table.cell(1, 0).empty());
 }
 
 TEST_CASE("A table that is cut off keeps its whole rows and names the line") {
@@ -44,7 +44,7 @@ TEST_CASE("A table that is cut off keeps its whole rows and names the line") {
   write(path, "a,b\n1,2\r\n\"3\n\",4\n5");
   io::Warnings warnings;
   const io::CsvTable table = io::read_csv(path, warnings);
-  CHECK(table.rows.size() == 2);
+  CHECK(table.rows() == 2);
   REQUIRE(warnings.size() == 1);
   CHECK(contains(warnings[0], "table.csv: line 5: has 1 of 2 cells: skipped"));
   write(path, "");

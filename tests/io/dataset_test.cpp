@@ -60,8 +60,8 @@ TEST_CASE("TUM layout: images with depth and truth by nearest stamp") {
   CHECK(dataset.frames[3].image == scratch.path() / "rgb/3.png");
   CHECK(dataset.frames[0].depth == scratch.path() / "depth/a.png");
   CHECK(dataset.frames[3].depth.empty());
-  REQUIRE(dataset.frames[3].world_from_cam.has_value());
-  CHECK(dataset.frames[3].world_from_cam->translation.x() == 10);  // 100.103 is nearest to 100.1
+  REQUIRE(dataset.world_from_cam(dataset.frames[3]) != nullptr);
+  CHECK(dataset.world_from_cam(dataset.frames[3])->translation.x() == 10);  // 100.103 is nearest to 100.1
   CHECK(dataset.ground_truth.size() == 48);
   CHECK(io::known_camera_for(dataset)->name == "tum_fr2");
 }
@@ -147,13 +147,42 @@ TEST_CASE("ICL-NUIM layout: numbers are stamps and poses are turned to y down") 
   CHECK(dataset.seconds_per_stamp == Approx(1 / 30.0));
   REQUIRE(dataset.frames.size() == 11);
   CHECK(dataset.frames[1].stamp == 2);
-  CHECK(dataset.frames[10].image.filename() == "11.png");
+  CHECK(dataset.frames[10].image == scratch.path() / "rgb/11.png");
   CHECK(dataset.frames[1].depth == scratch.path() / "depth/2.png");
-  CHECK_FALSE(dataset.frames[0].world_from_cam.has_value());
-  const SE3<double> pose = dataset.frames[3].world_from_cam.value();
+  CHECK(dataset.world_from_cam(dataset.frames[0]) == nullptr);
+  REQUIRE(dataset.world_from_cam(dataset.frames[3]) != nullptr);
+  const SE3<double> pose = *dataset.world_from_cam(dataset.frames[3]);
   CHECK((pose.translation - Vec3<double>(0.1, -0.2, 4)).norm() < 1e-12);
   CHECK(pose.rotation.quaternion().x() == Approx(-0.6));
   CHECK(io::known_camera_for(dataset)->camera.pinhole.fy == 480);
+}
+
+TEST_CASE("Numbered images are ICL-NUIM's where something says so") {
+  const ScratchFolder scratch;
+  for (int i = 0; i < 3; ++i) scratch.write("rgb/" + std::to_string(i) + ".png");
+  const auto refused = [&] {
+    return contains(error_opening(scratch.path()), ": nothing says what its rgb/N.png are; wants rgb.txt");
+  };
+  SECTION("nothing does") {
+    CHECK(refused());
+    CHECK(contains(error_opening(scratch.path()), "name " + (scratch.path() / "rgb").string()));
+    CHECK(io::open_dataset(scratch.path() / "rgb").layout == io::Layout::kImages);
+  }
+  SECTION("a ground truth in seconds is TUM RGB-D's without its rgb.txt") {
+    scratch.write("groundtruth.txt", "# stamps\n0" + std::string(kIdentity) + "0.5" + kIdentity);
+    scratch.write("associations.txt", "0.5 rgb/1.png 0.52 depth/1.png\n");
+    CHECK(refused());
+    scratch.write("rgb.txt", "0 rgb/0.png\n0.5 rgb/1.png\n");
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kTum);
+  }
+  SECTION("a ground truth that counts frames") {
+    scratch.write("groundtruth.txt", "0" + std::string(kIdentity) + "1" + kIdentity);
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kIclNuim);
+  }
+  SECTION("the list of the published images") {
+    scratch.write("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kIclNuim);
+  }
 }
 
 TEST_CASE("7-Scenes layout: matrices are poses") {
@@ -171,11 +200,11 @@ TEST_CASE("7-Scenes layout: matrices are poses") {
     CHECK(dataset.layout == io::Layout::kSevenScenes);
     REQUIRE(dataset.frames.size() == 3);
     CHECK(dataset.frames[2].stamp == Approx(2 / 30.0));
-    CHECK(dataset.frames[2].depth.filename() == "frame-000002.depth.png");
-    CHECK(dataset.frames[2].world_from_cam->translation.y() == 2);
-    CHECK(
-        (dataset.frames[2].world_from_cam->rotation * Vec3<double>(1, 0, 0) - Vec3<double>(0, 1, 0)).norm() <
-        1e-12);
+    CHECK(dataset.frames[2].depth == scratch.path() / "frame-000002.depth.png");
+    const SE3<double>* const pose = dataset.world_from_cam(dataset.frames[2]);
+    REQUIRE(pose != nullptr);
+    CHECK(pose->translation.y() == 2);
+    CHECK((pose->rotation * Vec3<double>(1, 0, 0) - Vec3<double>(0, 1, 0)).norm() < 1e-12);
     CHECK(dataset.ground_truth.size() == 3);
     CHECK(io::known_camera_for(dataset)->depth_factor == 1000);
   }
@@ -183,7 +212,8 @@ TEST_CASE("7-Scenes layout: matrices are poses") {
     scratch.write("frame-000001.pose.txt", "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     const io::Dataset dataset = io::open_dataset(scratch.path());
     CHECK(dataset.frames.size() == 3);
-    CHECK_FALSE(dataset.frames[1].world_from_cam.has_value());
+    CHECK(dataset.world_from_cam(dataset.frames[1]) == nullptr);
+    CHECK(dataset.world_from_cam(dataset.frames[2])->translation.y() == 2);
     REQUIRE(dataset.warnings.size() == 1);
     CHECK(contains(dataset.warnings[0], "frame-000001.pose.txt: its upper left 3x3 part is not a rotation"));
   }
@@ -196,8 +226,8 @@ TEST_CASE("Image folders and globs: natural order and stamps") {
     const io::Dataset dataset = io::open_dataset(scratch.path(), {.frame_rate = 20});
     CHECK(dataset.layout == io::Layout::kImages);
     REQUIRE(dataset.frames.size() == 3);
-    CHECK(dataset.frames[0].image.filename() == "8.jpg");
-    CHECK(dataset.frames[2].image.filename() == "10.png");
+    CHECK(dataset.frames[0].image == scratch.path() / "8.jpg");
+    CHECK(dataset.frames[2].image == scratch.path() / "10.png");
     CHECK(dataset.frames[2].stamp == Approx(0.1));
     CHECK_FALSE(io::known_camera_for(dataset).has_value());
   }
@@ -285,8 +315,8 @@ TEST_CASE("The recordings are read whole and without a warning") {
   CHECK(icl.warnings.empty());
   CHECK(icl.frames.size() == 101);
   CHECK(icl.frames[99].stamp == 100);
-  CHECK_FALSE(icl.frames[0].world_from_cam.has_value());
-  CHECK(icl.frames[1].world_from_cam->translation.y() == Approx(-0.00897074));
+  CHECK(icl.world_from_cam(icl.frames[0]) == nullptr);
+  CHECK(icl.world_from_cam(icl.frames[1])->translation.y() == Approx(-0.00897074));
 
   const io::Dataset office = io::open_dataset(testing::shared_data("office_kt2"));
   CHECK(office.layout == io::Layout::kTum);

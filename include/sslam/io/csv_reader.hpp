@@ -14,9 +14,29 @@
 
 namespace sslam::io {
 
-struct CsvTable {
+// All cells lie in one text: a table of a long run has so many that a string for each would cost more than
+// what they say.
+class CsvTable {
+ public:
   std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;  // each as long as columns
+
+  [[nodiscard]] std::size_t rows() const noexcept {
+    return columns.empty() ? 0 : ends_.size() / columns.size();
+  }
+
+  // Stands until the next row is added.
+  [[nodiscard]] std::string_view cell(std::size_t row, std::size_t column) const noexcept {
+    const std::size_t at = row * columns.size() + column, start = at == 0 ? 0 : ends_[at - 1];
+    return std::string_view(text_).substr(start, ends_[at] - start);
+  }
+
+  // One cell for each column.
+  void add_row(const std::vector<std::string>& cells) {
+    for (const std::string& cell : cells) {
+      text_ += cell;
+      ends_.push_back(text_.size());
+    }
+  }
 
   // columns.size() where there is none of this name.
   [[nodiscard]] std::size_t column(std::string_view name) const noexcept {
@@ -24,6 +44,10 @@ struct CsvTable {
     while (i < columns.size() && columns[i] != name) ++i;
     return i;
   }
+
+ private:
+  std::string text_;
+  std::vector<std::size_t> ends_;  // of each cell, row after row
 };
 
 namespace csv_detail {
@@ -69,10 +93,10 @@ inline std::vector<std::string> take_row(std::string_view& text, int& line) {
   std::size_t total = 0;
   while (!left.empty()) {
     const int at = line + 1;
-    std::vector<std::string> cells = csv_detail::take_row(left, line);
+    const std::vector<std::string> cells = csv_detail::take_row(left, line);
     ++total;
     if (cells.size() == table.columns.size()) {
-      table.rows.push_back(std::move(cells));
+      table.add_row(cells);
     } else {
       bad.add(at, "has " + std::to_string(cells.size()) + " of " + std::to_string(table.columns.size()) +
                       " cells");

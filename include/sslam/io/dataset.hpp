@@ -4,9 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,22 +19,29 @@ namespace sslam::io {
 
 enum class Layout { kTum, kIclNuim, kSevenScenes, kImages, kVideo };
 
+// Small: a long recording has many, and all of them are at hand as long as it runs. A std::filesystem::path
+// would keep its parts beside its text.
 struct FrameEntry {
-  std::int64_t index = 0;  // position in the whole sequence, before any slice; the frame number of a video
-  double stamp = 0;        // the dataset's own
-  std::filesystem::path image;                // the video itself for a video
-  std::filesystem::path depth;                // empty: none
-  std::optional<SE3<double>> world_from_cam;  // ground truth, in our camera axes
+  std::int64_t index = 0;     // position in the whole sequence, before any slice; the frame number of a video
+  double stamp = 0;           // the dataset's own
+  std::string image;          // path; the video itself for a video
+  std::string depth;          // path; empty: none
+  std::ptrdiff_t truth = -1;  // position in the dataset's ground truth; -1: none
 };
 
 struct Dataset {
   Layout layout = Layout::kImages;
   std::filesystem::path root;      // folder of the sequence, or the video
   std::vector<FrameEntry> frames;  // increasing stamps; empty for a video until fill_video_frames
-  Trajectory ground_truth;         // all of it, on its own clock; empty: none
+  Trajectory ground_truth;         // all of it, on its own clock, in our camera axes; empty: none
   double seconds_per_stamp = 1;    // ICL-NUIM stamps count frames
   std::string name_hint;           // text that may name the recording, for the built-in calibrations
   Warnings warnings;
+
+  // The ground truth of a frame; null: none.
+  [[nodiscard]] const SE3<double>* world_from_cam(const FrameEntry& frame) const noexcept {
+    return frame.truth < 0 ? nullptr : &ground_truth[static_cast<std::size_t>(frame.truth)].world_from_cam;
+  }
 };
 
 [[nodiscard]] inline std::vector<double> frame_stamps(const Dataset& dataset) {
@@ -56,13 +63,15 @@ inline void apply_slice(Dataset& dataset, const Slice& slice) {
     throw Error("slice: start must be at least 0 and stride at least 1");
   const auto size = static_cast<std::int64_t>(dataset.frames.size());
   const std::int64_t end = slice.end < 0 ? size : std::min(slice.end, size);
-  std::vector<FrameEntry> kept;
-  for (std::int64_t i = slice.start; i < end; i += slice.stride)
-    kept.push_back(dataset.frames[static_cast<std::size_t>(i)]);
-  if (kept.empty()) {
+  if (slice.start >= end) {
     throw Error(dataset.root.string() + ": no frame from " + std::to_string(slice.start) + " up to " +
                 std::to_string(end) + "; the sequence has " + std::to_string(size));
   }
+  const std::int64_t count = (end - slice.start - 1) / slice.stride + 1;
+  std::vector<FrameEntry> kept;
+  kept.reserve(static_cast<std::size_t>(count));
+  for (std::int64_t i = 0; i < count; ++i)
+    kept.push_back(std::move(dataset.frames[static_cast<std::size_t>(slice.start + i * slice.stride)]));
   dataset.frames = std::move(kept);
 }
 
@@ -78,7 +87,7 @@ inline void attach_ground_truth(Dataset& dataset, Trajectory truth, const std::f
                 ", theirs from " + exact_decimal(stamps.front()) + " to " + exact_decimal(stamps.back()) +
                 "; correct or remove it");
   }
-  for (const StampPair& pair : pairs) dataset.frames[pair.a].world_from_cam = truth[pair.b].world_from_cam;
+  for (const StampPair& pair : pairs) dataset.frames[pair.a].truth = static_cast<std::ptrdiff_t>(pair.b);
   dataset.ground_truth = std::move(truth);
 }
 
@@ -92,7 +101,7 @@ inline void drop_bad_frames(Dataset& dataset, const std::filesystem::path& sourc
   for (FrameEntry& frame : dataset.frames) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(frame.image, ignored)) {
-      bad.add("names " + frame.image.string() + ", which is not there");
+      bad.add("names " + frame.image + ", which is not there");
       continue;
     }
     stamps.push_back(frame.stamp);
@@ -104,7 +113,7 @@ inline void drop_bad_frames(Dataset& dataset, const std::filesystem::path& sourc
     if (keep[i]) {
       dataset.frames.push_back(std::move(present[i]));
     } else {
-      bad.add("stamp " + exact_decimal(present[i].stamp) + " of " + present[i].image.string() +
+      bad.add("stamp " + exact_decimal(present[i].stamp) + " of " + present[i].image +
               " goes backwards or repeats; stamps must increase");
     }
   }

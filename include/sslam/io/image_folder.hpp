@@ -34,7 +34,7 @@ inline constexpr double kDefaultFrameRate = 30;
   const bool stamped = std::all_of(images.begin(), images.end(), is_stamp_name);
   for (std::size_t i = 0; i < images.size(); ++i) {
     FrameEntry frame;
-    frame.image = images[i];
+    frame.image = images[i].string();
     frame.stamp = stamped ? parse_number<double>(images[i].stem().string()).value_or(0)
                           : static_cast<double>(i) / frame_rate;
     dataset.frames.push_back(std::move(frame));

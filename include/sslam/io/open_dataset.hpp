@@ -36,7 +36,7 @@ inline constexpr std::array<FolderLayout, 4> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_seven_scenes(root); }},
-    {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", is_icl_nuim,
+    {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", has_numbered_images,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_icl_nuim(root); }},
     {Layout::kImages, "folder of images", "*.png, *.jpg, ...", is_image_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {

@@ -79,16 +79,16 @@ inline constexpr double kSevenScenesFrameRate = 30;
     const std::string stem = seven_scenes_stem(image);
     FrameEntry frame;
     frame.stamp = parse_number<double>(stem.substr(stem.find('-') + 1)).value_or(0) / kSevenScenesFrameRate;
-    frame.image = image;
+    frame.image = image.string();
     std::error_code ignored;
     if (const auto depth = root / (stem + ".depth.png"); std::filesystem::is_regular_file(depth, ignored)) {
-      frame.depth = depth;
+      frame.depth = depth.string();
     }
     if (const auto pose = root / (stem + ".pose.txt"); std::filesystem::is_regular_file(pose, ignored)) {
       std::string why;
-      frame.world_from_cam = read_pose_matrix(pose, why);
-      if (frame.world_from_cam) {
-        dataset.ground_truth.push_back({frame.stamp, *frame.world_from_cam});
+      if (const auto world_from_cam = read_pose_matrix(pose, why)) {
+        frame.truth = static_cast<std::ptrdiff_t>(dataset.ground_truth.size());
+        dataset.ground_truth.push_back({frame.stamp, *world_from_cam});
       } else {
         bad_poses.add(why);
       }

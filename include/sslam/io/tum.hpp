@@ -17,7 +17,7 @@ namespace sslam::io {
 
 struct StampedFile {
   double stamp = 0;
-  std::filesystem::path file;
+  std::string file;
 };
 
 // Rows of `stamp file`, file relative to root. Throws Error when nothing usable is in the list.
@@ -35,7 +35,7 @@ struct StampedFile {
       bad.add(row.line, "expected 'stamp file' with the stamp in seconds");
       continue;
     }
-    files.push_back({*stamp, root / std::filesystem::path(row.cells[1])});
+    files.push_back({*stamp, (root / row.cells[1]).string()});
   }
   bad.settle(rows.size(), warnings);
   return files;
@@ -51,10 +51,10 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list) {
   std::vector<double> depth_stamps;
   for (const StampedFile& file : files) depth_stamps.push_back(file.stamp);
   std::size_t absent = 0;
-  std::filesystem::path first_absent;
+  std::string first_absent;
   const std::vector<StampPair> pairs = associate(stamps, depth_stamps, kMaxStampDifference);
   for (const StampPair& pair : pairs) {
-    const std::filesystem::path& depth = files[pair.b].file;
+    const std::string& depth = files[pair.b].file;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(depth, ignored)) {
       dataset.frames[pair.a].depth = depth;
@@ -63,7 +63,7 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list) {
     }
   }
   if (absent == 0) return;
-  dataset.warnings.push_back(list.string() + ": names " + first_absent.string() + ", which is not there; " +
+  dataset.warnings.push_back(list.string() + ": names " + first_absent + ", which is not there; " +
                              std::to_string(absent) + " of " + std::to_string(pairs.size()) +
                              " depth images are missing, their frames have no depth");
 }

@@ -29,7 +29,7 @@ inline void fill_video_frames(Dataset& dataset, std::int64_t count, double frame
     FrameEntry frame;
     frame.index = i;
     frame.stamp = static_cast<double>(i) / frame_rate;
-    frame.image = dataset.root;
+    frame.image = dataset.root.string();
     dataset.frames.push_back(std::move(frame));
   }
 }

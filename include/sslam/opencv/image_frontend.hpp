@@ -5,7 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <future>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "sslam/opencv/no_normals.hpp"
 #include "sslam/opencv/normal_source.hpp"
 #include "sslam/opencv/orb_extractor.hpp"
+#include "sslam/opencv/side_thread.hpp"
 #include "sslam/opencv/undistorter.hpp"
 
 namespace sslam {
@@ -75,11 +76,18 @@ class ImageFrontend {
       report.normals = normals.fill(input, camera, frame.normals);
       report.normals_time = clock.seconds() - report.points_time;
     };
-    auto beside = std::async(parallel ? std::launch::async : std::launch::deferred, points_and_normals);
-    const Clock clock;
-    extract_lines(frame);
-    report.lines_time = clock.seconds();
-    beside.get();
+    const auto only_lines = [&] {
+      const Clock clock;
+      extract_lines(frame);
+      report.lines_time = clock.seconds();
+    };
+    if (parallel) {
+      if (!side_) side_ = std::make_unique<SideThread>();
+      side_->run(points_and_normals, only_lines);
+    } else {
+      only_lines();
+      points_and_normals();
+    }
     report.total_time = start.seconds();
     return report;
   }
@@ -145,6 +153,7 @@ class ImageFrontend {
 
   Undistorter undistorter_;
   cv::Mat grey_;
+  std::unique_ptr<SideThread> side_;  // where the points are found
 };
 
 }  // namespace sslam
