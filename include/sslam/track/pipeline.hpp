@@ -8,11 +8,12 @@
 
 #include "sslam/track/backfill.hpp"
 #include "sslam/track/concepts.hpp"
+#include "sslam/track/frame_history.hpp"
 #include "sslam/track/keyframe_cursor.hpp"
+#include "sslam/track/map_trial.hpp"
 #include "sslam/track/motion_model.hpp"
 #include "sslam/track/relocalisation.hpp"
 #include "sslam/track/stage_timer.hpp"
-#include "sslam/track/tracking_loss.hpp"
 #include "sslam/track/trajectory_log.hpp"
 #include "sslam/track/upkeep.hpp"
 
@@ -24,10 +25,6 @@ template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisa
           StageTimer Timer = NoTimer, UpkeepStage<S, Mapping, Loops> Upkeep = ImmediateUpkeep<S>>
 class Pipeline {
  public:
-  Pipeline() = default;
-  Pipeline(const Pipeline&) = delete;  // the frames in hand point into it
-  Pipeline& operator=(const Pipeline&) = delete;
-
   Rotation rotation;
   Initialisation initialisation;
   Translation translation;
@@ -37,7 +34,7 @@ class Pipeline {
   Mapping mapping;
   Loops loops;
   Backfill<S> backfill;
-  TrackingLoss<S> loss;
+  MapTrial<S> trial;
   Relocalisation<S> relocalisation;
   Timer timer;
   Upkeep upkeep;  // after the stages that it may still be at work with when the pipeline ends
@@ -47,16 +44,15 @@ class Pipeline {
     timer.begin();
     TrackResult<S> result;
     result.loop_closed = follow_map(upkeep.renew(map_));
-    rotate_buffers();
-    current_->adopt(frame);
-    result.index = current_->frame.index;
-    result.stamp = current_->frame.stamp;
+    frames_.begin(frame);
+    result.index = frames_.current().frame.index;
+    result.stamp = frames_.current().frame.stamp;
     if (map_.empty())
       initialise(result);
     else
       follow(result);
-    if (map_.empty() || loss.undecided(map_))
-      backfill.keep(*current_);
+    if (map_.empty() || trial.undecided(map_))
+      backfill.keep(frames_.current());
     else
       backfill.clear();
     return result;
@@ -66,7 +62,7 @@ class Pipeline {
   void resume(Map<S> map) {
     start_over(std::move(map));
     cursor_.move_to(0);  // never removed
-    loss.begin_in_given_map();
+    trial.begin_in_given_map();
   }
 
   // Takes what mapping elsewhere has still to say, and waits for it; true if that closed a loop. The next
@@ -75,61 +71,54 @@ class Pipeline {
 
   [[nodiscard]] const Map<S>& map() const noexcept { return map_; }
   [[nodiscard]] const TrajectoryLog<S>& trajectory() const noexcept { return log_; }
-  [[nodiscard]] const TrackedFrame<S>& last_frame() const noexcept { return *current_; }
+  [[nodiscard]] const TrackedFrame<S>& last_frame() const noexcept { return frames_.current(); }
 
  private:
-  void rotate_buffers() noexcept {
-    TrackedFrame<S>* const oldest = before_;
-    before_ = last_;
-    last_ = current_;
-    current_ = oldest;
-  }
-
   void initialise(TrackResult<S>& result) {
     result.state = State::kInitialising;
-    const SO3<S> predicted = last_->cam_from_world.rotation;
+    const SO3<S> predicted = frames_.last().cam_from_world.rotation;
     const RotationAnswer<S> answer = rotate(predicted, result);
-    const SO3<S>& rotation_now = answer.trusted ? current_->manhattan->cam_from_world : predicted;
-    current_->cam_from_world = {rotation_now, Vec3<S>::Zero()};
-    result.reason = initialisation.start(*current_, map_);
+    const SO3<S>& rotation_now = answer.trusted ? frames_.current().manhattan->cam_from_world : predicted;
+    frames_.current().cam_from_world = {rotation_now, Vec3<S>::Zero()};
+    result.reason = initialisation.start(frames_.current(), map_);
     timer.end(Stage::kInitialisation);
     if (result.reason != Reason::kFine) return;
-    mapping.begin(map_, *current_, cursor_.scene_depth(map_, *current_));
+    mapping.begin(map_, frames_.current(), cursor_.scene_depth(map_, frames_.current()));
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : map_.keyframes)
       log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
     cursor_.move_to(map_.keyframes.back().id);
     backfill.run(map_, fallback, refinement, keyframes, mapping, log_);
-    current_->read_back(map_.keyframes[map_.index(cursor_.reference())]);
+    frames_.current().read_back(map_.keyframes[map_.index(cursor_.reference())]);
     report(result, answer.trusted ? State::kManhattan : State::kFallback);
     result.keyframe = true;
     motion_.stop();
-    motion_.update(current_->cam_from_world, result.stamp);
+    motion_.update(frames_.current().cam_from_world, result.stamp);
   }
 
   void follow(TrackResult<S>& result) {
-    recent_.gather(*last_, *before_);
-    const PoseEstimate<S> estimate = loss.lasts() ? relocalise(result) : track_pose(result);
+    recent_.gather(frames_.last(), frames_.before_last());
+    const PoseEstimate<S> estimate = trial.lost() ? relocalise(result) : track_pose(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
-    loss.weigh(*current_);
-    if (loss.refutes(map_)) return lose(result, Reason::kManhattanRejected);
+    trial.weigh(frames_.current());
+    if (trial.refutes(map_)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
-    result.cam_from_world = current_->cam_from_world;
-    if (loss.lasts()) {
+    result.cam_from_world = frames_.current().cam_from_world;
+    if (trial.lost()) {
       motion_.stop();
-      loss.end();
+      trial.end_loss();
       result.reason = Reason::kRelocalised;
     }
-    result.keyframe = cursor_.advance(map_, *current_, estimate, keyframes, [&](S depth) {
-      return upkeep.insert(map_, *current_, cursor_.reference(), depth, mapping, loops);
+    result.keyframe = cursor_.advance(map_, frames_.current(), estimate, keyframes, [&](S depth) {
+      return upkeep.insert(map_, frames_.current(), cursor_.reference(), depth, mapping, loops);
     });
-    motion_.update(current_->cam_from_world, result.stamp);
+    motion_.update(frames_.current().cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);
       close_loop(result);
     }
-    log_.add(map_, result.index, result.stamp, cursor_.reference(), current_->cam_from_world);
+    log_.add(map_, result.index, result.stamp, cursor_.reference(), frames_.current().cam_from_world);
   }
 
   // The frame has just become a keyframe; the world may move under it.
@@ -137,9 +126,9 @@ class Pipeline {
     const LoopAnswer<S> answer = upkeep.close(map_, cursor_.reference(), loops);
     if (answer.closed) {
       result.loop_closed = true;
-      current_->read_back(map_.keyframes[map_.index(cursor_.reference())]);
+      frames_.current().read_back(map_.keyframes[map_.index(cursor_.reference())]);
       if (!answer.new_from_old.empty()) log_.follow([&](KeyframeId id) { return answer.scale_at(id); });
-      motion_.move_to(current_->cam_from_world, answer.scale_at(cursor_.reference()));
+      motion_.move_to(frames_.current().cam_from_world, answer.scale_at(cursor_.reference()));
     }
     timer.end(Stage::kLoops);
   }
@@ -148,15 +137,16 @@ class Pipeline {
   bool follow_map(const MapChange<S>* change) {
     if (change == nullptr) return false;
     const KeyframeId reference = cursor_.reference();
-    for (TrackedFrame<S>* const frame : {current_, last_}) change->carry(reference, *frame);
-    motion_.move_to(current_->cam_from_world, change->scale_at(reference));
+    for (TrackedFrame<S>* const frame : {&frames_.current(), &frames_.last()})
+      change->carry(reference, *frame);
+    motion_.move_to(frames_.current().cam_from_world, change->scale_at(reference));
     cursor_.refer_to(map_.carrier(reference));
     if (change->loop_closed) log_.follow([&](KeyframeId id) { return change->scale_at(id); });
     return change->loop_closed;
   }
 
   RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
-    const RotationAnswer<S> answer = rotation.rotate(*current_, predicted, !map_.empty());
+    const RotationAnswer<S> answer = rotation.rotate(frames_.current(), predicted, !map_.empty());
     map_.world_from_manhattan = rotation.world_from_manhattan();
     result.axes_seen = answer.axes_seen;
     timer.end(Stage::kRotation);
@@ -168,16 +158,16 @@ class Pipeline {
     const SE3<S> predicted = motion_.predict(result.stamp);
     const RotationAnswer<S> answer = rotate(predicted.rotation, result);
     std::optional<RotationPrior<S>> prior;
-    if (current_->manhattan) prior = make_prior(*current_->manhattan);
+    if (frames_.current().manhattan) prior = make_prior(*frames_.current().manhattan);
     result.reason = Reason::kNoManhattanFrame;
     if (answer.trusted) {
       const Vec3<S> centre = predicted.inverse().translation;
-      const SO3<S>& turned = current_->manhattan->cam_from_world;
-      current_->cam_from_world = {turned, -(turned * centre)};
-      PoseEstimate<S> estimate = translation.translate(map_, recent_, *current_);
+      const SO3<S>& turned = frames_.current().manhattan->cam_from_world;
+      frames_.current().cam_from_world = {turned, -(turned * centre)};
+      PoseEstimate<S> estimate = translation.translate(map_, recent_, frames_.current());
       timer.end(Stage::kTranslation);
       if (estimate.ok()) {
-        estimate = refinement.refine(map_, &*prior, *current_);
+        estimate = refinement.refine(map_, &*prior, frames_.current());
         timer.end(Stage::kRefinement);
         if (estimate.ok()) {
           result.state = State::kManhattan;
@@ -193,15 +183,15 @@ class Pipeline {
   }
 
   PoseEstimate<S> track_features(const SE3<S>& predicted, const RotationPrior<S>* prior) {
-    current_->cam_from_world = predicted;
-    PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, *current_);
+    frames_.current().cam_from_world = predicted;
+    PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, frames_.current());
     if (!estimate.ok()) {
-      current_->cam_from_world = last_->cam_from_world;
-      estimate = fallback.track_keyframe(map_, cursor_.reference(), prior, *current_);
+      frames_.current().cam_from_world = frames_.last().cam_from_world;
+      estimate = fallback.track_keyframe(map_, cursor_.reference(), prior, frames_.current());
     }
     timer.end(Stage::kFallback);
     if (!estimate.ok()) return estimate;
-    estimate = refinement.refine(map_, prior, *current_);
+    estimate = refinement.refine(map_, prior, frames_.current());
     timer.end(Stage::kRefinement);
     return estimate;
   }
@@ -211,7 +201,7 @@ class Pipeline {
     KeyframeId place = cursor_.reference();
     const auto agrees = [&] { return stands_square(result); };
     const PoseEstimate<S> estimate =
-        relocalisation.find(map_, fallback, refinement, agrees, *current_, place);
+        relocalisation.find(map_, fallback, refinement, agrees, frames_.current(), place);
     cursor_.refer_to(place);
     timer.end(Stage::kFallback);
     return estimate;
@@ -221,18 +211,18 @@ class Pipeline {
   // that only looks the same is rarely seen from a direction that fits.
   bool stands_square(TrackResult<S>& result) {
     timer.end(Stage::kFallback);
-    const SO3<S>& found = current_->cam_from_world.rotation;
+    const SO3<S>& found = frames_.current().cam_from_world.rotation;
     rotate(found, result);
-    return !loss.contradicts(*current_);
+    return !trial.contradicts(frames_.current());
   }
 
   void lose(TrackResult<S>& result, Reason reason) {
     result.state = State::kLost;
     result.reason = reason;
-    current_->forget_matches();
-    current_->cam_from_world = last_->cam_from_world;
-    loss.add(current_->frame);
-    if (loss.refutes(map_)) start_over({});
+    frames_.current().forget_matches();
+    frames_.current().cam_from_world = frames_.last().cam_from_world;
+    trial.add_lost(frames_.current().frame);
+    if (trial.refutes(map_)) start_over({});
   }
 
   void start_over(Map<S> map) {
@@ -242,15 +232,15 @@ class Pipeline {
     rotation.reset(map_.world_from_manhattan);
     initialisation.reset();
     motion_.stop();
-    loss.begin_again();
-    current_->forget_manhattan();
+    trial.begin_again();
+    frames_.current().forget_manhattan();
     backfill.leave_world();
   }
 
   void report(TrackResult<S>& result, State state) {
-    scratch_.gather(map_, *current_);
+    scratch_.gather(map_, frames_.current());
     result.state = state;
-    result.cam_from_world = current_->cam_from_world;
+    result.cam_from_world = frames_.current().cam_from_world;
     result.point_inliers = scratch_.point_inlier_count();
     result.line_inliers = scratch_.line_inlier_count();
   }
@@ -261,10 +251,7 @@ class Pipeline {
 
   Map<S> map_;
   TrajectoryLog<S> log_;
-  TrackedFrame<S> buffers_[3];
-  TrackedFrame<S>* current_ = &buffers_[0];
-  TrackedFrame<S>* last_ = &buffers_[1];
-  TrackedFrame<S>* before_ = &buffers_[2];
+  FrameHistory<S> frames_;
   RecentLandmarks<S> recent_;
   ConstantVelocity<S> motion_;
   Correspondences<S> scratch_;

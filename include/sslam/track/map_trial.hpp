@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What speaks against the map: a loss of track, and poses that stand askew to the Manhattan frame.
+// The map on trial: what speaks against it is a loss of track while it is young, and poses askew to the
+// Manhattan frame.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -11,7 +12,7 @@
 namespace sslam {
 
 template <Scalar S>
-class TrackingLoss {
+class MapTrial {
  public:
   int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
   int give_up_after = 15;      // frames in a row that speak against it until that happens
@@ -19,7 +20,7 @@ class TrackingLoss {
   S max_turn = radians(S(5));  // between a pose and what the Manhattan frame says of its rotation, and
   S max_sigmas = 4;            // the same in standard deviations: beyond both they contradict each other
 
-  [[nodiscard]] bool lasts() const noexcept { return frames_ > 0; }
+  [[nodiscard]] bool lost() const noexcept { return frames_ > 0; }
 
   // The place in a map that was not made here is yet to be found; however young, that map is not given up.
   void begin_in_given_map() noexcept {
@@ -28,11 +29,11 @@ class TrackingLoss {
   }
   // One more frame is lost. A covered lens says nothing about the map; an image that shows enough and does
   // not fit does.
-  void add(const Frame<S>& frame) noexcept {
+  void add_lost(const Frame<S>& frame) noexcept {
     ++frames_;
     if (static_cast<int>(frame.points.size() + frame.lines.size()) >= telling_features) ++unfit_;
   }
-  void end() noexcept { frames_ = unfit_ = 0; }
+  void end_loss() noexcept { frames_ = unfit_ = 0; }
 
   // A frame has a pose. A first map whose depths are wrong, as two views of a flat scene can leave it, turns
   // the camera as it moves; the Manhattan frame does not turn along.
