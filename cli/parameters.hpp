@@ -79,11 +79,15 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "the same where the Manhattan frame gives the rotation");
     visit("refinement.min_inlier_share", p.refinement.acceptance.min_inlier_share, Unit::kNumber,
           "of all matches");
+    visit("refinement.prior_gate", p.refinement.prior_gate, Unit::kNumber,
+          "squared deviations from the Manhattan rotation beyond which it is rejected");
     visit("refinement.max_position_sigma", p.refinement.acceptance.max_position_sigma, Unit::kNumber,
           "of the camera's place, over the median scene depth");
     visit("refinement.max_rotation_sigma", p.refinement.acceptance.max_rotation_sigma, Unit::kDegrees,
           "of the camera's rotation");
   }
+  visit("motion.horizon", p.motion.horizon, Unit::kNumber,
+        "seconds without a pose through which the velocity is believed; 0: none");
   if constexpr (requires { p.keyframes.min_shared; }) {
     visit("keyframes.min_shared", p.keyframes.min_shared, Unit::kNumber,
           "share of the reference keyframe's landmarks still seen");

@@ -90,6 +90,22 @@ TEST_CASE("A covered lens is a loss with a reason and the pose is found again") 
   REQUIRE(position_error(pipeline, simulation) < 0.03);
 }
 
+TEST_CASE("The motion carries over a short loss, where it is believed") {
+  Simulation simulation(walk(120));
+  presets::Structure<double> pipeline;
+  const double horizon = GENERATE(0.3, 0.0);
+  pipeline.motion.horizon = horizon;
+  track_first(pipeline, simulation, 80);
+  for (std::size_t k = 80; k < 84; ++k) {
+    Frame<double> frame = simulation.dark_frame(k);
+    REQUIRE(pipeline.track(frame).state == State::kLost);
+  }
+  Frame<double> frame = simulation.frame(84);
+  const TrackResult<double> found = pipeline.track(frame);
+  REQUIRE(found.has_pose());
+  REQUIRE((found.reason == Reason::kRelocalised) == (horizon == 0));
+}
+
 TEST_CASE("A later run finds its place in the map of an earlier one") {
   Simulation simulation(walk(140));
   presets::Structure<double> first;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame in hand and the two before it, in buffers that serve again.
+// The frame in hand and the last two that were tracked before it, in buffers that serve again.
 #pragma once
 
 #include <array>
@@ -12,10 +12,18 @@ namespace sslam {
 template <Scalar S>
 class FrameHistory {
  public:
-  // The frame becomes the current one; it is left the buffers of the oldest to fill again.
+  // The frame becomes the current one; it is left the buffers of the oldest, or of a lost one, to fill again.
   void begin(Frame<S>& frame) {
-    now_ = (now_ + 1) % frames_.size();
+    if (!lost_) now_ = (now_ + 1) % frames_.size();
+    lost_ = false;
     current().adopt(frame);
+  }
+
+  // The current frame has no place: it stands where the last one stood, and will not be one of the last.
+  void lose() {
+    lost_ = true;
+    current().forget_matches();
+    current().cam_from_world = last().cam_from_world;
   }
 
   [[nodiscard]] TrackedFrame<S>& current() noexcept { return frames_[now_]; }
@@ -24,10 +32,12 @@ class FrameHistory {
   [[nodiscard]] const TrackedFrame<S>& before_last() const noexcept {
     return frames_[(now_ + 1) % frames_.size()];
   }
+  [[nodiscard]] std::array<TrackedFrame<S>, 3>& all() noexcept { return frames_; }
 
  private:
   std::array<TrackedFrame<S>, 3> frames_;
   std::size_t now_ = 0;
+  bool lost_ = false;
 };
 
 }  // namespace sslam

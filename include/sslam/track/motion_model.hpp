@@ -9,11 +9,15 @@ namespace sslam {
 template <Scalar S>
 class ConstantVelocity {
  public:
+  double horizon = 0.3;  // seconds without a pose, through which the velocity is believed; 0: not at all
+
   // cam_from_world expected at `stamp`, seconds.
   [[nodiscard]] SE3<S> predict(double stamp) const {
     if (!moving_) return pose_;
     return SE3<S>::exp(velocity_ * static_cast<S>(stamp - stamp_)) * pose_;
   }
+
+  [[nodiscard]] bool reaches(double stamp) const noexcept { return moving_ && stamp - stamp_ <= horizon; }
 
   void update(const SE3<S>& cam_from_world, double stamp) {
     const double dt = stamp - stamp_;

@@ -33,6 +33,7 @@ class Pipeline {
   Keyframes keyframes;
   Mapping mapping;
   Loops loops;
+  ConstantVelocity<S> motion;
   Backfill<S> backfill;
   MapTrial<S> trial;
   Relocalisation<S> relocalisation;
@@ -92,28 +93,32 @@ class Pipeline {
     frames_.current().read_back(map_.keyframes[map_.index(cursor_.reference())]);
     report(result, answer.trusted ? State::kManhattan : State::kFallback);
     result.keyframe = true;
-    motion_.stop();
-    motion_.update(frames_.current().cam_from_world, result.stamp);
+    motion.stop();
+    motion.update(frames_.current().cam_from_world, result.stamp);
   }
 
   void follow(TrackResult<S>& result) {
     recent_.gather(frames_.last(), frames_.before_last());
-    const PoseEstimate<S> estimate = trial.lost() ? relocalise(result) : track_pose(result);
+    const bool lost = trial.lost();
+    PoseEstimate<S> estimate;
+    if (!lost || motion.reaches(result.stamp)) estimate = track_pose(result);
+    const bool tracked = estimate.ok();
+    if (!tracked && lost) estimate = relocalise(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
     trial.weigh(frames_.current());
     if (trial.refutes(map_)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = frames_.current().cam_from_world;
-    if (trial.lost()) {
-      motion_.stop();
-      trial.end_loss();
+    trial.end_loss();
+    if (!tracked) {
+      motion.stop();
       result.reason = Reason::kRelocalised;
     }
     result.keyframe = cursor_.advance(map_, frames_.current(), estimate, keyframes, [&](S depth) {
       return upkeep.insert(map_, frames_.current(), cursor_.reference(), depth, mapping, loops);
     });
-    motion_.update(frames_.current().cam_from_world, result.stamp);
+    motion.update(frames_.current().cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);
       close_loop(result);
@@ -128,7 +133,7 @@ class Pipeline {
       result.loop_closed = true;
       frames_.current().read_back(map_.keyframes[map_.index(cursor_.reference())]);
       if (!answer.new_from_old.empty()) log_.follow([&](KeyframeId id) { return answer.scale_at(id); });
-      motion_.move_to(frames_.current().cam_from_world, answer.scale_at(cursor_.reference()));
+      motion.move_to(frames_.current().cam_from_world, answer.scale_at(cursor_.reference()));
     }
     timer.end(Stage::kLoops);
   }
@@ -137,9 +142,8 @@ class Pipeline {
   bool follow_map(const MapChange<S>* change) {
     if (change == nullptr) return false;
     const KeyframeId reference = cursor_.reference();
-    for (TrackedFrame<S>* const frame : {&frames_.current(), &frames_.last()})
-      change->carry(reference, *frame);
-    motion_.move_to(frames_.current().cam_from_world, change->scale_at(reference));
+    for (TrackedFrame<S>& frame : frames_.all()) change->carry(reference, frame);
+    motion.move_to(frames_.current().cam_from_world, change->scale_at(reference));
     cursor_.refer_to(map_.carrier(reference));
     if (change->loop_closed) log_.follow([&](KeyframeId id) { return change->scale_at(id); });
     return change->loop_closed;
@@ -155,7 +159,7 @@ class Pipeline {
 
   // The decoupled way first; where it does not hold, six degrees of freedom.
   PoseEstimate<S> track_pose(TrackResult<S>& result) {
-    const SE3<S> predicted = motion_.predict(result.stamp);
+    const SE3<S> predicted = motion.predict(result.stamp);
     const RotationAnswer<S> answer = rotate(predicted.rotation, result);
     std::optional<RotationPrior<S>> prior;
     if (frames_.current().manhattan) prior = make_prior(*frames_.current().manhattan);
@@ -169,7 +173,7 @@ class Pipeline {
       if (estimate.ok()) {
         estimate = refinement.refine(map_, &*prior, frames_.current());
         timer.end(Stage::kRefinement);
-        if (estimate.ok()) {
+        if (estimate.ok() && refinement.keeps(*prior, frames_.current().cam_from_world.rotation)) {
           result.state = State::kManhattan;
           result.reason = Reason::kFine;
           return estimate;
@@ -219,8 +223,7 @@ class Pipeline {
   void lose(TrackResult<S>& result, Reason reason) {
     result.state = State::kLost;
     result.reason = reason;
-    frames_.current().forget_matches();
-    frames_.current().cam_from_world = frames_.last().cam_from_world;
+    frames_.lose();
     trial.add_lost(frames_.current().frame);
     if (trial.refutes(map_)) start_over({});
   }
@@ -231,7 +234,7 @@ class Pipeline {
     log_.clear();
     rotation.reset(map_.world_from_manhattan);
     initialisation.reset();
-    motion_.stop();
+    motion.stop();
     trial.begin_again();
     frames_.current().forget_manhattan();
     backfill.leave_world();
@@ -253,7 +256,6 @@ class Pipeline {
   TrajectoryLog<S> log_;
   FrameHistory<S> frames_;
   RecentLandmarks<S> recent_;
-  ConstantVelocity<S> motion_;
   Correspondences<S> scratch_;
   KeyframeCursor<S> cursor_;
 };

@@ -62,13 +62,14 @@ class DecoupledTranslation {
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.6)};
   PoseRefinementOptions<S> solver;
 
-  // In: the frame's pose has the Manhattan rotation and a predicted translation. Out: the solved translation
+  // In: the frame's pose has its Manhattan rotation and a predicted translation. Out: the solved translation
   // and the inlying matches, or, on failure, an unchanged pose.
   [[nodiscard]] PoseEstimate<S> translate(const Map<S>& map, const RecentLandmarks<S>& recent,
                                           TrackedFrame<S>& frame) {
     match_recent(map, recent, S(1), match, frame);
     matches_.gather(map, frame);
     if (static_cast<int>(matches_.size()) < acceptance.min_inliers_turned) return {};
+    matches_.allow_for_rotation(std::sqrt(frame.manhattan->covariance.trace() / 3), frame.frame.pinhole);
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                                solver, matches_.point_inliers, matches_.line_inliers);

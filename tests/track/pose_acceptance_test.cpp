@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslam/track/refinement.hpp"
+#include "support/catch.hpp"
+
+using namespace sslam;
+
+namespace {
+
+// `count` points two metres ahead of a camera in the world's origin, each seen where it is.
+Correspondences<double> matches(int count, double sigma) {
+  Correspondences<double> m;
+  for (int i = 0; i < count; ++i) {
+    const Vec3<double> x(0.2 * i - 0.3, i % 2 ? 0.4 : -0.4, 2);
+    m.points.push_back({x, 500 * x.head<2>() / x.z(), sigma});
+  }
+  m.point_inliers.assign(m.points.size(), 1);
+  return m;
+}
+
+template <int D>
+PoseEstimate<double> judged(int count, bool turned) {
+  Correspondences<double> m = matches(count, 1);
+  return judge<double, D>(m, {}, Mat<double, D, D>::Identity() * 1e6, {}, turned);
+}
+
+}  // namespace
+
+TEST_CASE("Fewer matches are enough where the Manhattan frame gives the rotation") {
+  CHECK(judged<6>(10, false).ok());
+  CHECK(judged<6>(9, false).reason == Reason::kTooFewMatches);
+  CHECK(judged<3>(5, true).ok());
+  CHECK(judged<6>(5, true).ok());
+  CHECK(judged<3>(4, true).reason == Reason::kTooFewMatches);
+}
+
+TEST_CASE("A rotation that is off by a little moves every feature by so many pixels") {
+  Correspondences<double> m = matches(4, 3);
+  m.allow_for_rotation(0.008, Pinhole<double>{500, 500, 0, 0});
+  for (const auto& p : m.points) CHECK(p.sigma == Approx(5));
+}
+
+TEST_CASE("A prior holds as long as the map's rotation is as near to it as it claims") {
+  const LocalMapRefinement<double> refinement;
+  const RotationPrior<double> prior{SO3<double>(), Mat3<double>::Identity() / (0.01 * 0.01)};
+  CHECK(refinement.keeps(prior, SO3<double>::exp({0.02, 0, 0.01})));
+  CHECK_FALSE(refinement.keeps(prior, SO3<double>::exp({0.02, 0, 0.02})));
+}
