@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/option_info.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::cli {
 
@@ -23,7 +24,7 @@ void add_choice(CLI::App& app, const std::string& flag, Value& target,
       ->check([&names](const std::string& word) {
         if (names.count(word) != 0) return std::string();
         std::string known;
-        for (const auto& [name, value] : names) known += (known.empty() ? "" : ", ") + name;
+        for (const auto& [name, value] : names) io::add_to_list(known, name);
         return "'" + word + "' is not one of " + known;
       });
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/option_info.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -36,7 +37,7 @@ std::string italic(const std::string& text) {
 std::string heading(const OptionInfo& option) {
   if (option.flags.empty()) return italic(option.name);
   std::string text;
-  for (const std::string& flag : option.flags) text += (text.empty() ? "" : ", ") + bold(flag);
+  for (const std::string& flag : option.flags) io::add_to_list(text, bold(flag));
   if (option.kind != ValueKind::kNone) text += " " + italic(option.value);
   return text + (option.repeated ? " ..." : "");
 }
@@ -45,7 +46,7 @@ std::string entry(const OptionInfo& option) {
   std::string text = ".TP\n" + heading(option) + "\n" + plain(option.meaning);
   if (!option.words.empty()) {
     std::string words;
-    for (const std::string& word : option.words) words += (words.empty() ? "" : ", ") + bold(word);
+    for (const std::string& word : option.words) io::add_to_list(words, bold(word));
     text += "\n.br\nOne of " + words + ".";
   }
   if (!option.default_value.empty()) text += "\n.br\nDefault: " + plain(option.default_value) + ".";

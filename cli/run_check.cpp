@@ -53,7 +53,7 @@ const Preset& find_preset(const std::string& wanted) {
   std::string known;
   for (const Preset& preset : kPresets) {
     if (preset.name == wanted) return preset;
-    known += (known.empty() ? "" : ", ") + std::string(preset.name);
+    io::add_to_list(known, preset.name);
   }
   throw io::Error("--preset " + wanted + ": not known; use one of " + known);
 }
@@ -88,7 +88,7 @@ void check_live(const RunSettings& settings, const Preset& preset) {
   if (!settings.live || preset.run_live != nullptr) return;
   std::string able;
   for (const Preset& p : kPresets)
-    if (p.run_live != nullptr) able += (able.empty() ? "" : ", ") + std::string(p.name);
+    if (p.run_live != nullptr) io::add_to_list(able, p.name);
   throw io::Error("--live: not with --preset " + settings.preset + "; use one of " + able);
 }
 

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sslam/io/text.hpp"
+
 namespace sslam::cli {
 
 // Letters to insert, to remove or to replace (Levenshtein, 1966).
@@ -33,7 +35,7 @@ namespace sslam::cli {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    all += (all.empty() ? "" : ", ") + candidate;
+    io::add_to_list(all, candidate);
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least) {
       least = distance;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/batch/suite_table.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -30,7 +31,7 @@ void multiply(std::vector<SuiteMethod>& methods, const std::vector<Choice>& choi
   for (const SuiteMethod& method : methods) {
     for (const Choice& choice : choices) {
       SuiteMethod next = method;
-      if (!choice.label.empty()) next.name += (next.name.empty() ? "" : ", ") + choice.label;
+      if (!choice.label.empty()) io::add_to_list(next.name, choice.label);
       put(next, choice.value);
       all.push_back(std::move(next));
     }

@@ -9,6 +9,7 @@
 
 #include "cli/image_camera.hpp"
 #include "sslam/io/error.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -54,8 +55,7 @@ bool has_chessboard(const cv::Mat& grey, int columns, int rows, std::vector<cv::
 
 std::string dictionary_names() {
   std::string names;
-  for (const NamedDictionary& known : kDictionaries)
-    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  for (const NamedDictionary& known : kDictionaries) io::add_to_list(names, known.name);
   return names;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/fetch/public_sequences.hpp"
 #include "cli/fetch/unpack.hpp"
 #include "sslam/io/open_dataset.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -28,8 +29,7 @@ struct FetchSettings {
 
 std::string sequence_names() {
   std::string names;
-  for (const PublicSequence& known : kPublicSequences)
-    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  for (const PublicSequence& known : kPublicSequences) io::add_to_list(names, known.name);
   return names;
 }
 

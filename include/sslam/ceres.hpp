@@ -2,6 +2,7 @@
 // Everything of the component ceres: bundle adjustment, local and global.
 #pragma once
 
+#include "sslam/ceres/bundle_blocks.hpp"
 #include "sslam/ceres/bundle_solver.hpp"
 #include "sslam/ceres/cost_functions.hpp"
 #include "sslam/ceres/global_bundle_adjustment.hpp"

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <deque>
 #include <memory>
-#include <vector>
 
+#include "sslam/ceres/bundle_blocks.hpp"
 #include "sslam/ceres/plane_costs.hpp"
 #include "sslam/solver/bundle_summary.hpp"
 
@@ -45,7 +45,7 @@ class CeresBundleSolver {
     ceres::Solver::Summary answer;
     if (observations_ > 0) ceres::Solve(solver_options(), &problem, &answer);
     const BundleSummary summary = summarise(answer);
-    if (improved(summary)) store(graph);
+    if (improved(summary)) blocks_.store(graph);
     release();
     return summary;
   }
@@ -72,18 +72,7 @@ class CeresBundleSolver {
   }
 
   void load(const BundleGraph<double>& graph) {
-    poses_.resize(graph.views.size());
-    point_blocks_.resize(graph.points.size());
-    line_blocks_.resize(graph.lines.size());
-    plane_blocks_.resize(graph.planes.size());
-    for (std::size_t i = 0; i < poses_.size(); ++i)
-      store_pose(graph.views[i].cam_from_world, poses_[i].data());
-    for (std::size_t i = 0; i < point_blocks_.size(); ++i)
-      Eigen::Map<Vec3<double>>(point_blocks_[i].data()) = graph.points[i].position;
-    for (std::size_t i = 0; i < line_blocks_.size(); ++i)
-      store_line(graph.lines[i].line, line_blocks_[i].data());
-    for (std::size_t i = 0; i < plane_blocks_.size(); ++i)
-      store_plane(graph.planes[i].plane, plane_blocks_[i].data());
+    blocks_.load(graph);
     point_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.point);
     line_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.line);
     rotation_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.rotation);
@@ -102,14 +91,14 @@ class CeresBundleSolver {
 
   void add_points(const BundleGraph<double>& graph, ceres::Problem& problem) {
     for (std::size_t i = 0; i < graph.points.size(); ++i) {
-      double* const block = point_blocks_[i].data();
+      double* const block = blocks_.points[i].data();
       bool used = false;
       for (auto e = graph.points[i].first_edge; e < graph.points[i].last_edge; ++e) {
         const PointEdge<double>& edge = graph.point_edges[static_cast<std::size_t>(e)];
         const auto view = static_cast<std::size_t>(edge.view);
         point_costs_.emplace_back(edge, graph.views[view].pinhole);
-        if (!evaluable(point_costs_.back(), poses_[view].data(), block)) continue;
-        problem.AddResidualBlock(&point_costs_.back(), point_loss_.get(), poses_[view].data(), block);
+        if (!evaluable(point_costs_.back(), blocks_.poses[view].data(), block)) continue;
+        problem.AddResidualBlock(&point_costs_.back(), point_loss_.get(), blocks_.poses[view].data(), block);
         used = true;
         ++observations_;
       }
@@ -119,14 +108,14 @@ class CeresBundleSolver {
 
   void add_lines(const BundleGraph<double>& graph, ceres::Problem& problem) {
     for (std::size_t i = 0; i < graph.lines.size(); ++i) {
-      double* const block = line_blocks_[i].data();
+      double* const block = blocks_.lines[i].data();
       bool used = false;
       for (auto e = graph.lines[i].first_edge; e < graph.lines[i].last_edge; ++e) {
         const LineEdge<double>& edge = graph.line_edges[static_cast<std::size_t>(e)];
         const auto view = static_cast<std::size_t>(edge.view);
         line_costs_.emplace_back(edge, graph.views[view].pinhole);
-        if (!evaluable(line_costs_.back(), poses_[view].data(), block)) continue;
-        problem.AddResidualBlock(&line_costs_.back(), line_loss_.get(), poses_[view].data(), block);
+        if (!evaluable(line_costs_.back(), blocks_.poses[view].data(), block)) continue;
+        problem.AddResidualBlock(&line_costs_.back(), line_loss_.get(), blocks_.poses[view].data(), block);
         used = true;
         ++observations_;
       }
@@ -142,7 +131,7 @@ class CeresBundleSolver {
   void add_planes(const BundleGraph<double>& graph, ceres::Problem& problem) {
     const double sigma = options.losses.flatness * graph.depth;
     for (std::size_t p = 0; p < graph.planes.size(); ++p) {
-      double* const block = plane_blocks_[p].data();
+      double* const block = blocks_.planes[p].data();
       plane_held_costs_.emplace_back(graph.planes[p].held, sigma);
       problem.AddResidualBlock(&plane_held_costs_.back(), nullptr, block);
       problem.SetManifold(block, &plane_manifold_);
@@ -154,24 +143,24 @@ class CeresBundleSolver {
     const auto tie = [&](ceres::CostFunction& cost, std::int32_t plane, double* landmark) {
       if (!problem.HasParameterBlock(landmark)) return;  // no observation of it can be evaluated
       problem.AddResidualBlock(&cost, plane_loss_.get(),
-                               plane_blocks_[static_cast<std::size_t>(plane)].data(), landmark);
+                               blocks_.planes[static_cast<std::size_t>(plane)].data(), landmark);
     };
     for (std::size_t i = 0; i < graph.points.size(); ++i) {
       if (graph.points[i].plane == kNoPlane) continue;
       point_tie_costs_.emplace_back(sigma);
-      tie(point_tie_costs_.back(), graph.points[i].plane, point_blocks_[i].data());
+      tie(point_tie_costs_.back(), graph.points[i].plane, blocks_.points[i].data());
     }
     for (std::size_t i = 0; i < graph.lines.size(); ++i) {
       if (graph.lines[i].plane == kNoPlane) continue;
       line_tie_costs_.emplace_back(graph.lines[i].start, graph.lines[i].end, sigma);
-      tie(line_tie_costs_.back(), graph.lines[i].plane, line_blocks_[i].data());
+      tie(line_tie_costs_.back(), graph.lines[i].plane, blocks_.lines[i].data());
     }
   }
 
   void add_views(const BundleGraph<double>& graph, ceres::Problem& problem) {
     for (std::size_t v = 0; v < graph.views.size(); ++v) {
       const BundleView<double>& view = graph.views[v];
-      double* const block = poses_[v].data();
+      double* const block = blocks_.poses[v].data();
       if (view.rotation && view.hold != Hold::kPose) {
         rotation_costs_.emplace_back(*view.rotation);
         problem.AddResidualBlock(&rotation_costs_.back(), rotation_loss_.get(), block);
@@ -206,26 +195,8 @@ class CeresBundleSolver {
       out.status = Status::kDegenerate;
     else
       return out;
-    const auto finite = [](const auto& blocks) {
-      for (const auto& block : blocks)
-        for (const double x : block)
-          if (!std::isfinite(x)) return false;
-      return true;
-    };
-    if (!finite(poses_) || !finite(point_blocks_) || !finite(line_blocks_) || !finite(plane_blocks_))
-      out.status = Status::kNotFinite;
+    if (!blocks_.finite()) out.status = Status::kNotFinite;
     return out;
-  }
-
-  void store(BundleGraph<double>& graph) const {
-    for (std::size_t i = 0; i < poses_.size(); ++i)
-      if (graph.views[i].hold != Hold::kPose) graph.views[i].cam_from_world = load_pose(poses_[i].data());
-    for (std::size_t i = 0; i < point_blocks_.size(); ++i)
-      graph.points[i].position = Eigen::Map<const Vec3<double>>(point_blocks_[i].data());
-    for (std::size_t i = 0; i < line_blocks_.size(); ++i)
-      graph.lines[i].line = load_line(line_blocks_[i].data());
-    for (std::size_t i = 0; i < plane_blocks_.size(); ++i)
-      graph.planes[i].plane = load_plane(plane_blocks_[i].data());
   }
 
   void release() {
@@ -241,10 +212,7 @@ class CeresBundleSolver {
     ordering_.reset();
   }
 
-  std::vector<PoseBlock> poses_;
-  std::vector<PointBlock> point_blocks_;
-  std::vector<LineBlock> line_blocks_;
-  std::vector<PlaneBlock> plane_blocks_;
+  BundleBlocks blocks_;
   std::deque<PointCost> point_costs_;  // Ceres' cost functions cannot move
   std::deque<LineCost> line_costs_;
   std::deque<RotationTieCost> rotation_costs_;

@@ -12,6 +12,7 @@
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/dataset.hpp"
 #include "sslam/io/files.hpp"
+#include "sslam/io/text.hpp"
 
 namespace sslam::io {
 
@@ -59,8 +60,7 @@ struct KnownCamera {
 // "tum_fr1, tum_fr2, ...": for messages.
 [[nodiscard]] inline std::string known_camera_names() {
   std::string names;
-  for (const KnownCamera& camera : known_cameras())
-    names += (names.empty() ? "" : ", ") + std::string(camera.name);
+  for (const KnownCamera& camera : known_cameras()) add_to_list(names, camera.name);
   return names;
 }
 

@@ -12,6 +12,7 @@
 #include "sslam/io/icl_nuim.hpp"
 #include "sslam/io/image_folder.hpp"
 #include "sslam/io/seven_scenes.hpp"
+#include "sslam/io/text.hpp"
 #include "sslam/io/tum.hpp"
 #include "sslam/io/video.hpp"
 
@@ -54,7 +55,7 @@ inline constexpr std::array<FolderLayout, 4> kFolderLayouts{{
 [[nodiscard]] inline std::string describe_folder_layouts() {
   std::string text;
   for (const FolderLayout& known : kFolderLayouts) {
-    text += (text.empty() ? "" : ", ") + std::string(known.looks_for) + " (" + std::string(known.name) + ")";
+    add_to_list(text, std::string(known.looks_for) + " (" + std::string(known.name) + ")");
   }
   return text;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading of small text files: lines, cells, numbers, independent of the locale.
+// Small text: files read by lines, cells and numbers, independent of the locale, and lists for people.
 #pragma once
 
 #include <cerrno>
@@ -68,6 +68,12 @@ template <class Number>
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+// One more item of "a, b, c".
+inline void add_to_list(std::string& list, std::string_view item) {
+  if (!list.empty()) list += ", ";
+  list += item;
 }
 
 // The shortest decimal that reads back as the same double, with at least `decimals` digits after the point.
