@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "sslam/io/text.hpp"
 #include "sslam/opencv/network_view.hpp"
 #include "sslam/opencv/normal_manifest.hpp"
 #include "sslam/opencv/normal_source.hpp"
@@ -97,7 +96,7 @@ class OnnxNetwork {
     }
     const std::vector<std::string> names = net_.getUnconnectedOutLayersNames();
     std::string list;
-    for (const auto& name : names) io::add_to_list(list, name);
+    for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
     wanted_.clear();
     for (const auto& [field, name] : {std::pair{"name", manifest_.output}, std::pair{"mask", manifest_.mask},
                                       std::pair{"confidence", manifest_.confidence}}) {
