@@ -45,6 +45,8 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "of a landmark that counts");
     visit("initialisation.max_direction_sigma", p.initialisation.max_direction_sigma, Unit::kDegrees,
           "standard deviation of the direction of the translation");
+    visit("initialisation.turn_sigma", p.initialisation.turn_sigma, Unit::kDegrees,
+          "added to the standard deviation of the turn between two Manhattan rotations");
     visit("initialisation.search_radius", p.initialisation.search_radius, Unit::kPixels,
           "around where a feature was last seen");
   }

@@ -23,8 +23,7 @@ struct BundleBlocks {
     points.resize(graph.points.size());
     lines.resize(graph.lines.size());
     planes.resize(graph.planes.size());
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      store_pose(graph.views[i].cam_from_world, poses[i].data());
+    for (std::size_t i = 0; i < poses.size(); ++i) store_pose(graph.views[i].cam_from_world, poses[i].data());
     for (std::size_t i = 0; i < points.size(); ++i)
       Eigen::Map<Vec3<double>>(points[i].data()) = graph.points[i].position;
     for (std::size_t i = 0; i < lines.size(); ++i) store_line(graph.lines[i].line, lines[i].data());
