@@ -45,8 +45,6 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "of a landmark that counts");
     visit("initialisation.max_direction_sigma", p.initialisation.max_direction_sigma, Unit::kDegrees,
           "standard deviation of the direction of the translation");
-    visit("initialisation.turn_sigma", p.initialisation.turn_sigma, Unit::kDegrees,
-          "added to the standard deviation of the turn between two Manhattan rotations");
     visit("initialisation.search_radius", p.initialisation.search_radius, Unit::kPixels,
           "around where a feature was last seen");
   }
@@ -81,8 +79,6 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "the same where the Manhattan frame gives the rotation");
     visit("refinement.min_inlier_share", p.refinement.acceptance.min_inlier_share, Unit::kNumber,
           "of all matches");
-    visit("refinement.prior_gate", p.refinement.prior_gate, Unit::kNumber,
-          "squared deviations from the Manhattan rotation beyond which it is rejected");
     visit("refinement.max_position_sigma", p.refinement.acceptance.max_position_sigma, Unit::kNumber,
           "of the camera's place, over the median scene depth");
     visit("refinement.max_rotation_sigma", p.refinement.acceptance.max_rotation_sigma, Unit::kDegrees,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/track/refinement.hpp"
+#include "sslam/track/pose_estimate.hpp"
+
 #include "support/catch.hpp"
 
 using namespace sslam;
@@ -31,17 +32,4 @@ TEST_CASE("Fewer matches are enough where the Manhattan frame gives the rotation
   CHECK(judged<3>(5, true).ok());
   CHECK(judged<6>(5, true).ok());
   CHECK(judged<3>(4, true).reason == Reason::kTooFewMatches);
-}
-
-TEST_CASE("A rotation that is off by a little moves every feature by so many pixels") {
-  Correspondences<double> m = matches(4, 3);
-  m.allow_for_rotation(0.008, Pinhole<double>{500, 500, 0, 0});
-  for (const auto& p : m.points) CHECK(p.sigma == Approx(5));
-}
-
-TEST_CASE("A prior holds as long as the map's rotation is as near to it as it claims") {
-  const LocalMapRefinement<double> refinement;
-  const RotationPrior<double> prior{SO3<double>(), Mat3<double>::Identity() / (0.01 * 0.01)};
-  CHECK(refinement.keeps(prior, SO3<double>::exp({0.02, 0, 0.01})));
-  CHECK_FALSE(refinement.keeps(prior, SO3<double>::exp({0.02, 0, 0.02})));
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "sslam/core/median.hpp"
@@ -46,13 +45,6 @@ struct Correspondences {
     }
     point_inliers.assign(points.size(), 1);
     line_inliers.assign(lines.size(), 1);
-  }
-
-  // The rotation is taken as known, but is off by `sigma` radians about any axis: so far do features move.
-  void allow_for_rotation(S sigma, const Pinhole<S>& pinhole) {
-    const S pixels = sigma * pinhole.fx;
-    for (auto& p : points) p.sigma = std::hypot(p.sigma, pixels);
-    for (auto& l : lines) l.sigma = std::hypot(l.sigma, pixels);
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return points.size() + lines.size(); }

@@ -28,10 +28,7 @@ class DecoupledInitialisation {
   S min_parallax = radians(S(1));  // of a landmark that counts
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
   S max_rotation_sigma = radians(S(2));   // of a Manhattan rotation that is taken as known
-  // Added to the standard deviation of the turn between two Manhattan rotations. A tenth of a degree too much
-  // bends all depths of the first map together, and nothing later shows it.
-  S turn_sigma = radians(S(0.3));
-  S scene_depth = 1;  // median depth of the first map: sets the monocular scale
+  S scene_depth = 1;                      // median depth of the first map: sets the monocular scale
   RelativePoseOptions<S> refinement;
   std::uint64_t seed = 1;
   PointMatchOptions<S> match{.max_distance = 60, .max_ratio = S(0.9)};
@@ -122,8 +119,7 @@ class DecoupledInitialisation {
     if (!reference_.manhattan || !frame.manhattan) return;
     const SO3<S> R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
     const Mat3<S> turn = R_10.matrix();
-    prior_ = {R_10, frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose() +
-                        turn_sigma * turn_sigma * Mat3<S>::Identity()};
+    prior_ = {R_10, frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose()};
   }
 
   // Translation as a null vector with the Manhattan rotation, then a refinement of both in which the rotation

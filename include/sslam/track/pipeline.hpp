@@ -173,7 +173,7 @@ class Pipeline {
       if (estimate.ok()) {
         estimate = refinement.refine(map_, &*prior, frames_.current());
         timer.end(Stage::kRefinement);
-        if (estimate.ok() && refinement.keeps(*prior, frames_.current().cam_from_world.rotation)) {
+        if (estimate.ok()) {
           result.state = State::kManhattan;
           result.reason = Reason::kFine;
           return estimate;

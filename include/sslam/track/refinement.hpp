@@ -15,7 +15,6 @@ class LocalMapRefinement {
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.3)};
   PoseRefinementOptions<S> solver;
   std::size_t max_keyframes = 20;
-  S prior_gate = S(7.815);  // chi-square of three degrees of freedom at 95 %: how far from it a prior holds
 
   // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the
   // landmarks' visible and found counts are brought up to date. Unchanged pose on failure.
@@ -40,12 +39,6 @@ class LocalMapRefinement {
     count_matched(map, frame, [](LandmarkCommon& l) { ++l.found; });
     frame.cam_from_world = pose;
     return estimate;
-  }
-
-  // Whether what the map says of the rotation leaves the prior as likely as it claims to be.
-  [[nodiscard]] bool keeps(const RotationPrior<S>& prior, const SO3<S>& cam_from_world) const {
-    const Vec3<S> turn = (cam_from_world * prior.cam_from_world.inverse()).log();
-    return turn.dot(prior.information * turn) < prior_gate;
   }
 
  private:
@@ -74,7 +67,6 @@ class LocalMapRefinement {
 // Takes the tracked pose as it is.
 template <Scalar S>
 struct NoRefinement {
-  [[nodiscard]] bool keeps(const RotationPrior<S>&, const SO3<S>&) const { return true; }
   [[nodiscard]] PoseEstimate<S> refine(Map<S>&, const RotationPrior<S>*, TrackedFrame<S>& frame) {
     const auto seen = [](const std::vector<LandmarkId>& v) {
       return static_cast<int>(v.size()) - static_cast<int>(std::count(v.begin(), v.end(), kNone));

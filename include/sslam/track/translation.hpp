@@ -69,7 +69,6 @@ class DecoupledTranslation {
     match_recent(map, recent, S(1), match, frame);
     matches_.gather(map, frame);
     if (static_cast<int>(matches_.size()) < acceptance.min_inliers_turned) return {};
-    matches_.allow_for_rotation(std::sqrt(frame.manhattan->covariance.trace() / 3), frame.frame.pinhole);
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                                solver, matches_.point_inliers, matches_.line_inliers);
