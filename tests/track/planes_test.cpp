@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "support/catch.hpp"
 #include "support/map_errors.hpp"
@@ -77,6 +78,22 @@ TEST_CASE("Planes that coincide become one, and one without members goes") {
   CHECK_FALSE(map.planes[map.index(twin)].alive);
   CHECK_FALSE(map.planes[map.index(empty)].alive);
   CHECK(map.planes[4].alive);
+}
+
+// Under the address sanitizer: a plane that was found a moment ago has no extent yet.
+TEST_CASE("An axis that two Manhattan frames share is searched once") {
+  MapScene scene({.points = 2400, .lines = 200}, sweep(12, 0.25));
+  Map<double> map = room(scene, 0.02), alone = map;
+  const double turn = std::numbers::pi / 8;
+  map.world_from_manhattan.push_back(SO3<double>::exp({0, turn, 0}) * map.world_from_manhattan[0]);
+  REQUIRE(axis_number(map.world_from_manhattan, 1, 1) == 1);
+  ManhattanPlanes<double>().find(map, 11, kDepth);
+  ManhattanPlanes<double>().find(alone, 11, kDepth);
+  const auto across = [](const Map<double>& m) {
+    return std::count_if(m.planes.begin(), m.planes.end(), [](const auto& p) { return p.axis == 1; });
+  };
+  CHECK(across(map) > 0);
+  CHECK(across(map) == across(alone));
 }
 
 TEST_CASE("Planes can be left out, and wait for a Manhattan frame") {

@@ -34,6 +34,13 @@ template <Scalar S>
   return own;
 }
 
+// Whether an axis has its own number, and not that of an earlier frame which shares it.
+template <Scalar S>
+[[nodiscard]] bool stands_for_itself(const std::vector<SO3<S>>& world_from_manhattan, std::int8_t own) {
+  const auto axis = static_cast<std::int8_t>(own % 3);
+  return axis_number(world_from_manhattan, static_cast<std::size_t>(own / 3), axis) == own;
+}
+
 // The axis of its own frame, 0, 1 or 2, that a number stands for; kNone for none.
 [[nodiscard]] constexpr std::int8_t axis_in_frame(std::int8_t number) noexcept {
   return static_cast<std::int8_t>(number == kNone ? kNone : number % 3);

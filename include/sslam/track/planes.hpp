@@ -59,8 +59,9 @@ class ManhattanPlanes {
                                                keyframe.cam_from_world.rotation) < options.max_turn))
       return;
     local_.gather_around(map, id, options.max_keyframes);
-    for (std::size_t frame = 0; frame < map.world_from_manhattan.size(); ++frame)
-      for (std::int8_t a = 0; a < 3; ++a) find_across(map, axis_number(map.world_from_manhattan, frame, a));
+    const auto axes = static_cast<std::int8_t>(3 * map.world_from_manhattan.size());
+    for (std::int8_t axis = 0; axis < axes; ++axis)
+      if (stands_for_itself(map.world_from_manhattan, axis)) find_across(map, axis);
     points.create(map, id, median_depth);
   }
 
@@ -71,7 +72,7 @@ class ManhattanPlanes {
     bool line;
   };
 
-  // Twice where two frames share the axis: the second time nothing is left to find.
+  // Once for each axis: what it finds has no extent until the next keyframe.
   void find_across(Map<S>& map, std::int8_t axis) {
     const Vec3<S> normal = map.axis(axis);
     gather(map, axis, normal);
