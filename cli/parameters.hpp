@@ -53,7 +53,7 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "search window around a predicted point");
     visit("translation.line_radius", p.translation.match.line_radius, Unit::kPixels,
           "search band around a predicted line");
-    visit("translation.min_inliers", p.translation.acceptance.min_inliers_turned, Unit::kNumber,
+    visit("translation.min_inliers", p.translation.acceptance.min_inliers, Unit::kNumber,
           "points plus lines");
     visit("translation.min_inlier_share", p.translation.acceptance.min_inlier_share, Unit::kNumber,
           "of all matches");
@@ -75,7 +75,7 @@ void visit_parameters(Pipeline& p, Visit visit) {
           "search band around a predicted line");
     visit("refinement.max_keyframes", p.refinement.max_keyframes, Unit::kNumber, "of the local map");
     visit("refinement.min_inliers", p.refinement.acceptance.min_inliers, Unit::kNumber, "points plus lines");
-    visit("refinement.min_inliers_turned", p.refinement.acceptance.min_inliers_turned, Unit::kNumber,
+    visit("refinement.min_inliers_turned", p.refinement.min_inliers_turned, Unit::kNumber,
           "the same where the Manhattan frame gives the rotation");
     visit("refinement.min_inlier_share", p.refinement.acceptance.min_inlier_share, Unit::kNumber,
           "of all matches");

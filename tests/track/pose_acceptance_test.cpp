@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/track/pose_estimate.hpp"
+#include "sslam/track/refinement.hpp"
 
 #include "support/catch.hpp"
 
@@ -8,11 +8,11 @@ using namespace sslam;
 namespace {
 
 // `count` points two metres ahead of a camera in the world's origin, each seen where it is.
-Correspondences<double> matches(int count, double sigma) {
+Correspondences<double> matches(int count) {
   Correspondences<double> m;
   for (int i = 0; i < count; ++i) {
     const Vec3<double> x(0.2 * i - 0.3, i % 2 ? 0.4 : -0.4, 2);
-    m.points.push_back({x, 500 * x.head<2>() / x.z(), sigma});
+    m.points.push_back({x, 500 * x.head<2>() / x.z(), 1});
   }
   m.point_inliers.assign(m.points.size(), 1);
   return m;
@@ -20,8 +20,11 @@ Correspondences<double> matches(int count, double sigma) {
 
 template <int D>
 PoseEstimate<double> judged(int count, bool turned) {
-  Correspondences<double> m = matches(count, 1);
-  return judge<double, D>(m, {}, Mat<double, D, D>::Identity() * 1e6, {}, turned);
+  const RotationPrior<double> prior{{}, Mat3<double>::Identity()};
+  PoseAcceptance<double> acceptance = LocalMapRefinement<double>().accepts(turned ? &prior : nullptr);
+  if (D == 3) acceptance = DecoupledTranslation<double>().acceptance;
+  Correspondences<double> m = matches(count);
+  return judge<double, D>(m, {}, Mat<double, D, D>::Identity() * 1e6, acceptance);
 }
 
 }  // namespace

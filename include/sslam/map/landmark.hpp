@@ -3,6 +3,7 @@
 // that they lie on.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,12 @@ namespace sslam {
 using KeyframeId = std::int32_t;
 using LandmarkId = std::int32_t;
 inline constexpr std::int32_t kNone = -1;
+
+// How many features of a list have a landmark.
+[[nodiscard]] inline int count_held(const std::vector<LandmarkId>& landmarks) {
+  return static_cast<int>(landmarks.size()) -
+         static_cast<int>(std::count(landmarks.begin(), landmarks.end(), kNone));
+}
 
 struct Observation {
   KeyframeId keyframe = kNone;

@@ -72,7 +72,7 @@ class FeatureFallback {
     const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
                                         matches_.point_inliers, matches_.line_inliers, prior);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, acceptance, false);
+    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, acceptance);
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     frame.cam_from_world = pose;

@@ -20,10 +20,8 @@ class SharedFeatureKeyframes {
                             int inliers, int frames_since, S median_depth) const {
     if (frames_since < min_gap) return false;
     const Keyframe<S>& keyframe = map.keyframes[map.index(reference)];
-    const auto held = [](const std::vector<LandmarkId>& v) {
-      return static_cast<S>(v.size()) - static_cast<S>(std::count(v.begin(), v.end(), kNone));
-    };
-    const S landmarks = held(keyframe.point_landmarks) + held(keyframe.line_landmarks);
+    const auto landmarks =
+        static_cast<S>(count_held(keyframe.point_landmarks) + count_held(keyframe.line_landmarks));
     const SE3<S> frame_from_reference = frame.cam_from_world * keyframe.cam_from_world.inverse();
     return static_cast<S>(inliers) < min_shared * landmarks ||
            frame_from_reference.translation.norm() > max_baseline * median_depth ||

@@ -76,28 +76,33 @@ class Pipeline {
 
  private:
   void initialise(TrackResult<S>& result) {
+    TrackedFrame<S>& frame = frames_.current();
     result.state = State::kInitialising;
     const SO3<S> predicted = frames_.last().cam_from_world.rotation;
     const RotationAnswer<S> answer = rotate(predicted, result);
-    const SO3<S>& rotation_now = answer.trusted ? frames_.current().manhattan->cam_from_world : predicted;
-    frames_.current().cam_from_world = {rotation_now, Vec3<S>::Zero()};
-    result.reason = initialisation.start(frames_.current(), map_);
+    const SO3<S>& rotation_now = answer.trusted ? frame.manhattan->cam_from_world : predicted;
+    frame.cam_from_world = {rotation_now, Vec3<S>::Zero()};
+    result.reason = initialisation.start(frame, map_);
     timer.end(Stage::kInitialisation);
     if (result.reason != Reason::kFine) return;
-    mapping.begin(map_, frames_.current(), cursor_.scene_depth(map_, frames_.current()));
+    mapping.begin(map_, frame, cursor_.scene_depth(map_, frame));
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : map_.keyframes)
       log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
     cursor_.move_to(map_.keyframes.back().id);
     backfill.run(map_, fallback, refinement, keyframes, mapping, log_);
-    frames_.current().read_back(map_.keyframes[map_.index(cursor_.reference())]);
-    report(result, answer.trusted ? State::kManhattan : State::kFallback);
+    frame.read_back(map_.keyframes[map_.index(cursor_.reference())]);
+    result.state = answer.trusted ? State::kManhattan : State::kFallback;
+    result.cam_from_world = frame.cam_from_world;
+    result.point_inliers = count_held(frame.point_landmarks);
+    result.line_inliers = count_held(frame.line_landmarks);
     result.keyframe = true;
     motion.stop();
-    motion.update(frames_.current().cam_from_world, result.stamp);
+    motion.update(frame.cam_from_world, result.stamp);
   }
 
   void follow(TrackResult<S>& result) {
+    TrackedFrame<S>& frame = frames_.current();
     recent_.gather(frames_.last(), frames_.before_last());
     const bool lost = trial.lost();
     PoseEstimate<S> estimate;
@@ -105,35 +110,36 @@ class Pipeline {
     const bool tracked = estimate.ok();
     if (!tracked && lost) estimate = relocalise(result);
     if (!estimate.ok()) return lose(result, estimate.reason);
-    trial.weigh(frames_.current());
+    trial.weigh(frame);
     if (trial.refutes(map_)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
-    result.cam_from_world = frames_.current().cam_from_world;
+    result.cam_from_world = frame.cam_from_world;
     trial.end_loss();
     if (!tracked) {
       motion.stop();
       result.reason = Reason::kRelocalised;
     }
-    result.keyframe = cursor_.advance(map_, frames_.current(), estimate, keyframes, [&](S depth) {
-      return upkeep.insert(map_, frames_.current(), cursor_.reference(), depth, mapping, loops);
+    result.keyframe = cursor_.advance(map_, frame, estimate, keyframes, [&](S depth) {
+      return upkeep.insert(map_, frame, cursor_.reference(), depth, mapping, loops);
     });
-    motion.update(frames_.current().cam_from_world, result.stamp);
+    motion.update(frame.cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);
       close_loop(result);
     }
-    log_.add(map_, result.index, result.stamp, cursor_.reference(), frames_.current().cam_from_world);
+    log_.add(map_, result.index, result.stamp, cursor_.reference(), frame.cam_from_world);
   }
 
   // The frame has just become a keyframe; the world may move under it.
   void close_loop(TrackResult<S>& result) {
+    TrackedFrame<S>& frame = frames_.current();
     const LoopAnswer<S> answer = upkeep.close(map_, cursor_.reference(), loops);
     if (answer.closed) {
       result.loop_closed = true;
-      frames_.current().read_back(map_.keyframes[map_.index(cursor_.reference())]);
+      frame.read_back(map_.keyframes[map_.index(cursor_.reference())]);
       if (!answer.new_from_old.empty()) log_.follow([&](KeyframeId id) { return answer.scale_at(id); });
-      motion.move_to(frames_.current().cam_from_world, answer.scale_at(cursor_.reference()));
+      motion.move_to(frame.cam_from_world, answer.scale_at(cursor_.reference()));
     }
     timer.end(Stage::kLoops);
   }
@@ -159,19 +165,21 @@ class Pipeline {
 
   // The decoupled way first; where it does not hold, six degrees of freedom.
   PoseEstimate<S> track_pose(TrackResult<S>& result) {
+    TrackedFrame<S>& frame = frames_.current();
     const SE3<S> predicted = motion.predict(result.stamp);
     const RotationAnswer<S> answer = rotate(predicted.rotation, result);
     std::optional<RotationPrior<S>> prior;
-    if (frames_.current().manhattan) prior = make_prior(*frames_.current().manhattan);
+    if (frame.manhattan)
+      prior = RotationPrior<S>{frame.manhattan->cam_from_world, frame.manhattan->covariance.inverse()};
     result.reason = Reason::kNoManhattanFrame;
     if (answer.trusted) {
       const Vec3<S> centre = predicted.inverse().translation;
-      const SO3<S>& turned = frames_.current().manhattan->cam_from_world;
-      frames_.current().cam_from_world = {turned, -(turned * centre)};
-      PoseEstimate<S> estimate = translation.translate(map_, recent_, frames_.current());
+      const SO3<S>& turned = frame.manhattan->cam_from_world;
+      frame.cam_from_world = {turned, -(turned * centre)};
+      PoseEstimate<S> estimate = translation.translate(map_, recent_, frame);
       timer.end(Stage::kTranslation);
       if (estimate.ok()) {
-        estimate = refinement.refine(map_, &*prior, frames_.current());
+        estimate = refinement.refine(map_, &*prior, frame);
         timer.end(Stage::kRefinement);
         if (estimate.ok()) {
           result.state = State::kManhattan;
@@ -187,15 +195,16 @@ class Pipeline {
   }
 
   PoseEstimate<S> track_features(const SE3<S>& predicted, const RotationPrior<S>* prior) {
-    frames_.current().cam_from_world = predicted;
-    PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, frames_.current());
+    TrackedFrame<S>& frame = frames_.current();
+    frame.cam_from_world = predicted;
+    PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, frame);
     if (!estimate.ok()) {
-      frames_.current().cam_from_world = frames_.last().cam_from_world;
-      estimate = fallback.track_keyframe(map_, cursor_.reference(), prior, frames_.current());
+      frame.cam_from_world = frames_.last().cam_from_world;
+      estimate = fallback.track_keyframe(map_, cursor_.reference(), prior, frame);
     }
     timer.end(Stage::kFallback);
     if (!estimate.ok()) return estimate;
-    estimate = refinement.refine(map_, prior, frames_.current());
+    estimate = refinement.refine(map_, prior, frame);
     timer.end(Stage::kRefinement);
     return estimate;
   }
@@ -240,23 +249,10 @@ class Pipeline {
     backfill.leave_world();
   }
 
-  void report(TrackResult<S>& result, State state) {
-    scratch_.gather(map_, frames_.current());
-    result.state = state;
-    result.cam_from_world = frames_.current().cam_from_world;
-    result.point_inliers = scratch_.point_inlier_count();
-    result.line_inliers = scratch_.line_inlier_count();
-  }
-
-  static RotationPrior<S> make_prior(const RotationObservation<S>& observation) {
-    return {observation.cam_from_world, observation.covariance.inverse()};
-  }
-
   Map<S> map_;
   TrajectoryLog<S> log_;
   FrameHistory<S> frames_;
   RecentLandmarks<S> recent_;
-  Correspondences<S> scratch_;
   KeyframeCursor<S> cursor_;
 };
 

@@ -39,10 +39,7 @@ class PlanePoints {
   };
 
   [[nodiscard]] static std::size_t seen(const Keyframe<S>& kf) {
-    const auto taken = [](const std::vector<LandmarkId>& ids) {
-      return ids.size() - static_cast<std::size_t>(std::count(ids.begin(), ids.end(), kNone));
-    };
-    return taken(kf.point_landmarks) + taken(kf.line_landmarks);
+    return static_cast<std::size_t>(count_held(kf.point_landmarks) + count_held(kf.line_landmarks));
   }
 
   int create_with(Map<S>& map, KeyframeId id_a, KeyframeId id_b, S median_depth) {

@@ -25,27 +25,21 @@ struct PoseEstimate {
 template <Scalar S>
 struct PoseAcceptance {
   int min_inliers = 10;            // points plus lines
-  int min_inliers_turned = 5;      // the same where the Manhattan frame gives the rotation
   S min_inlier_share = S(0.4);     // of all matches
   S max_position_sigma = S(0.03);  // standard deviation of the camera's place over the median scene depth
   S max_rotation_sigma = radians(S(1.5));  // standard deviation of the camera's rotation, about any axis
-
-  [[nodiscard]] int least_inliers(bool turned) const noexcept {
-    return turned ? min_inliers_turned : min_inliers;
-  }
 };
 
 // Judges a solved pose by its inliers and, through the information matrix of the tangent xi = (phi, rho) or
-// of rho alone, by how well they pin it down. `turned`: the Manhattan frame gives the rotation.
+// of rho alone, by how well they pin it down.
 template <Scalar S, int D>
 [[nodiscard]] PoseEstimate<S> judge(Correspondences<S>& matches, const SE3<S>& cam_from_world,
-                                    const Mat<S, D, D>& information, const PoseAcceptance<S>& acceptance,
-                                    bool turned) {
+                                    const Mat<S, D, D>& information, const PoseAcceptance<S>& acceptance) {
   PoseEstimate<S> estimate;
   estimate.point_inliers = matches.point_inlier_count();
   estimate.line_inliers = matches.line_inlier_count();
   const int inliers = estimate.point_inliers + estimate.line_inliers;
-  if (inliers < acceptance.least_inliers(turned)) return estimate;
+  if (inliers < acceptance.min_inliers) return estimate;
   estimate.reason = Reason::kNoConsensus;
   if (static_cast<S>(inliers) < acceptance.min_inlier_share * static_cast<S>(matches.size())) return estimate;
   estimate.reason = Reason::kUncertainPose;

@@ -13,6 +13,7 @@ class LocalMapRefinement {
  public:
   MatchOptions<S> match{.point_radius = 6, .line_radius = 10, .points = {}, .lines = {}};
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.3)};
+  int min_inliers_turned = 5;  // instead of the acceptance's, where the Manhattan frame gives the rotation
   PoseRefinementOptions<S> solver;
   std::size_t max_keyframes = 20;
 
@@ -32,13 +33,19 @@ class LocalMapRefinement {
     const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
                                         matches_.point_inliers, matches_.line_inliers, prior);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate =
-        judge<S, 6>(matches_, pose, summary.information, acceptance, prior != nullptr);
+    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     count_matched(map, frame, [](LandmarkCommon& l) { ++l.found; });
     frame.cam_from_world = pose;
     return estimate;
+  }
+
+  // What a pose must show, with a rotation from the Manhattan frame or without one.
+  [[nodiscard]] PoseAcceptance<S> accepts(const RotationPrior<S>* prior) const noexcept {
+    PoseAcceptance<S> wanted = acceptance;
+    if (prior != nullptr) wanted.min_inliers = min_inliers_turned;
+    return wanted;
   }
 
  private:
@@ -68,10 +75,7 @@ class LocalMapRefinement {
 template <Scalar S>
 struct NoRefinement {
   [[nodiscard]] PoseEstimate<S> refine(Map<S>&, const RotationPrior<S>*, TrackedFrame<S>& frame) {
-    const auto seen = [](const std::vector<LandmarkId>& v) {
-      return static_cast<int>(v.size()) - static_cast<int>(std::count(v.begin(), v.end(), kNone));
-    };
-    return {Reason::kFine, seen(frame.point_landmarks), seen(frame.line_landmarks)};
+    return {Reason::kFine, count_held(frame.point_landmarks), count_held(frame.line_landmarks)};
   }
 };
 

@@ -59,7 +59,7 @@ template <Scalar S>
 class DecoupledTranslation {
  public:
   MatchOptions<S> match;
-  PoseAcceptance<S> acceptance{.min_inlier_share = S(0.6)};
+  PoseAcceptance<S> acceptance{.min_inliers = 5, .min_inlier_share = S(0.6)};
   PoseRefinementOptions<S> solver;
 
   // In: the frame's pose has its Manhattan rotation and a predicted translation. Out: the solved translation
@@ -68,12 +68,12 @@ class DecoupledTranslation {
                                           TrackedFrame<S>& frame) {
     match_recent(map, recent, S(1), match, frame);
     matches_.gather(map, frame);
-    if (static_cast<int>(matches_.size()) < acceptance.min_inliers_turned) return {};
+    if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                                solver, matches_.point_inliers, matches_.line_inliers);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance, true);
+    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance);
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     frame.cam_from_world = pose;
