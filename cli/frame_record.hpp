@@ -64,6 +64,9 @@ struct RunOutcome {
   io::Trajectory trajectory;  // by the keyframes' final poses, world from camera
   io::Trajectory keyframes;   // those that this run added to the map
   Map<double> map;
+  int world = 0;                 // that the map is of
+  std::size_t maps_apart = 0;    // that were left, and never joined with this one
+  std::size_t frames_apart = 0;  // that were tracked in them
   std::vector<ParameterValue> parameters;
   std::vector<std::string> warnings;
   std::vector<std::string> views;  // frames as encode_frame_view gives them

@@ -124,7 +124,11 @@ void visit_parameters(Pipeline& p, Visit visit) {
     visit("planes.flatness", p.mapping.optimiser.solver.options.losses.flatness, Unit::kNumber,
           "standard deviation of a member's distance from its plane over the median scene depth");
   }
-  if constexpr (requires { p.loops.detection; }) {
+  visit("atlas.leave_after", p.trial.leave_after, Unit::kNumber,
+        "frames in a row that show enough and have no pose, until a new map is begun");
+  visit("atlas.most", p.atlas.most, Unit::kNumber,
+        "maps that are kept for when the camera comes back; 0: a lost map is never left");
+  if constexpr (requires { p.loops.detection.places; }) {
     visit("loops.candidates", p.loops.detection.places.most, Unit::kNumber,
           "places to compare a new keyframe with; 0: no loop is closed");
     visit("loops.min_inliers", p.loops.detection.refinement.acceptance.min_inliers, Unit::kNumber,

@@ -61,9 +61,16 @@ Json times_json(const RunOutcome& outcome) {
           {"tracking_ms", quantiles(tracking)}};
 }
 
+std::size_t count_frames(const RunOutcome& outcome, bool TrackResult<double>::*mark) {
+  return static_cast<std::size_t>(
+      std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                    [mark](const FrameRecord& frame) { return frame.result.*mark; }));
+}
 std::size_t count_loops(const RunOutcome& outcome) {
-  return static_cast<std::size_t>(std::count_if(outcome.frames.begin(), outcome.frames.end(),
-                                                [](const FrameRecord& f) { return f.result.loop_closed; }));
+  return count_frames(outcome, &TrackResult<double>::loop_closed);
+}
+std::size_t count_joints(const RunOutcome& outcome) {
+  return count_frames(outcome, &TrackResult<double>::maps_joined);
 }
 
 Json states_json(const RunOutcome& outcome) {
@@ -98,12 +105,14 @@ std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::
   }
 }
 
-// Each pose as it was reported when its frame was tracked.
+// Each pose as it was reported when its frame was tracked. Those in other worlds, as of a map that was given
+// up or joined with this one later, have nothing in common with them.
 io::Trajectory live_trajectory(const RunOutcome& outcome) {
   io::Trajectory live;
   live.reserve(outcome.frames.size());
   for (const FrameRecord& frame : outcome.frames)
-    if (frame.result.has_pose()) live.push_back({frame.result.stamp, frame.result.cam_from_world.inverse()});
+    if (frame.result.has_pose() && frame.result.world == outcome.world)
+      live.push_back({frame.result.stamp, frame.result.cam_from_world.inverse()});
   return live;
 }
 
@@ -143,6 +152,12 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
     std::printf("mapping          behind in %d frames that should have become keyframes\n",
                 outcome.keyframes_not_made);
   if (const std::size_t loops = count_loops(outcome); loops > 0) std::printf("loops closed     %zu\n", loops);
+  if (const std::size_t joints = count_joints(outcome); joints > 0)
+    std::printf("maps joined      %zu\n", joints);
+  if (outcome.maps_apart > 0)
+    std::printf(
+        "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
+        outcome.maps_apart, outcome.frames_apart);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
   std::printf("written to       %s\n", context.settings.out.c_str());
 }
@@ -199,6 +214,10 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"planes", count_alive(outcome.map.planes)},
                   {"manhattan_frames", outcome.map.world_from_manhattan.size()},
                   {"loops", count_loops(outcome)},
+                  {"world", outcome.world},
+                  {"maps_joined", count_joints(outcome)},
+                  {"maps_apart", outcome.maps_apart},
+                  {"frames_apart", outcome.frames_apart},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"times", times_json(outcome)}};

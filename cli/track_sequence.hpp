@@ -64,6 +64,11 @@ template <class P>
 void collect_map(const P& pipeline, std::size_t known_keyframes, RunOutcome& outcome) {
   const auto& map = pipeline.map();
   outcome.map = map;
+  outcome.world = pipeline.world();
+  for (const auto& apart : pipeline.atlas.worlds()) {
+    ++outcome.maps_apart;
+    outcome.frames_apart += apart.log.entries().size();
+  }
   outcome.keyframes = keyframe_poses(map, known_keyframes);
   outcome.trajectory.reserve(pipeline.trajectory().entries().size());
   for (const auto& entry : pipeline.trajectory().entries())

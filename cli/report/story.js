@@ -44,7 +44,7 @@ function spanStory(span, first) {
   const next = span.to + 1 < run.frames.count ? run.state(span.to + 1) : "";
   if (span.key === "lost") {
     let after = run.kind === "live" ? "; not found again yet" : "; not found again before the end";
-    if (next === "initialising") after = "; the map was given up and a new one begun";
+    if (next === "initialising") after = "; a new map was begun";
     else if (next) after = `; found again at frame ${run.frames.text("index", span.to + 1)}`;
     return { state: "lost", text: `Lost for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}${after}.`, row: span.from, length };
   }
@@ -93,9 +93,13 @@ function tellStory() {
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
     items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 4, "of the same"));
   }
-  const loops = frames.has("loop_closed") ? Array.from({ length: frames.count }, (_, row) => row).filter((row) => frames.number("loop_closed", row) === 1) : [];
-  for (const row of loops)
+  const marked = (column) => frames.has(column) ? Array.from({ length: frames.count }, (_, row) => row).filter((row) => frames.number(column, row) === 1) : [];
+  for (const row of marked("loop_closed"))
     items.push({ state: "manhattan", row, length: 1, text: `A loop was closed: a place known from before was met again (${whereOf({ from: row, to: row })}).` });
+  for (const row of marked("maps_joined"))
+    items.push({ state: "manhattan", row, length: 1, text: `Two maps became one: a place of a map that had been left was met again (${whereOf({ from: row, to: row })}).` });
+  if (metrics.maps_apart > 0)
+    items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be connected with this one: no place was seen in both. Those frames have no pose in the trajectory.` });
   const unseen = metrics.frames_without_normal_evidence;
   if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals gave no Manhattan evidence: lines alone spoke for the axes there.` });
   const worst = run.errors ? greatest(run.errors.position_m) : -1;

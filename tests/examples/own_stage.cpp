@@ -23,6 +23,7 @@ struct Gyroscope {
     return {.axes_seen = 0, .trusted = true};
   }
   [[nodiscard]] std::vector<SO3<double>> world_from_manhattan() const { return {}; }  // has none
+  void lose() {}
   void reset(const std::vector<SO3<double>>&) {}
 };
 static_assert(RotationStage<Gyroscope, double>);

@@ -35,6 +35,14 @@ struct MovedPlane {
 
 }  // namespace detail
 
+// cam_from_world of a camera that moves along with the world; a camera has no scale.
+template <Scalar S>
+[[nodiscard]] SE3<S> carried(const Sim3<S>& new_from_old, const SE3<S>& cam_from_world) {
+  const SE3<S> world_from_cam = cam_from_world.inverse();
+  return SE3<S>{new_from_old.rotation * world_from_cam.rotation, new_from_old * world_from_cam.translation}
+      .inverse();
+}
+
 // new_from_old[k], in the world, for each keyframe that is alive. A landmark follows the first keyframe that
 // observes it, a plane the mean of its members; the place of a removed keyframe follows its heir, and its
 // entry in new_from_old becomes the heir's.
@@ -47,9 +55,7 @@ void deform(Map<S>& map, std::span<Sim3<S>> new_from_old) {
       kf.cam_from_heir.translation *= moved.scale;
       continue;
     }
-    const SE3<S> world_from_cam = kf.cam_from_world.inverse();
-    kf.cam_from_world =
-        SE3<S>{moved.rotation * world_from_cam.rotation, moved * world_from_cam.translation}.inverse();
+    kf.cam_from_world = carried(moved, kf.cam_from_world);
   }
   std::vector<detail::MovedPlane<S>> planes;
   for (const PlaneLandmark<S>& plane : map.planes) planes.push_back({plane.plane.normal});

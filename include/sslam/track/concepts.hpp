@@ -4,6 +4,8 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "sslam/track/loop_closing.hpp"
@@ -20,6 +22,7 @@ concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& 
                                  const std::vector<SO3<S>>& known) {
   { stage.rotate(frame, predicted, mapped) } -> std::same_as<RotationAnswer<S>>;
   { stage.world_from_manhattan() } -> std::convertible_to<std::vector<SO3<S>>>;
+  stage.lose();
   stage.reset(known);
 };
 
@@ -65,10 +68,13 @@ concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
   stage.begin(map, frame, S{});
 };
 
-// Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift.
+// Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift; or
+// a place of another map, and joins both.
 template <class T, class S>
-concept LoopStage = requires(T stage, Map<S>& map) {
+concept LoopStage = requires(T stage, Map<S>& map, const Loop<S>& loop) {
   { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
+  { stage.detection.find(std::as_const(map), KeyframeId{}, map) } -> std::same_as<std::optional<Loop<S>>>;
+  { stage.weld(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
 };
 
 // Decides when and where mapping and loop closing happen.

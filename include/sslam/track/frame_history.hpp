@@ -26,6 +26,13 @@ class FrameHistory {
     current().cam_from_world = last().cam_from_world;
   }
 
+  // The current frame stands in another world, of which those before it know nothing.
+  void change_world() {
+    for (TrackedFrame<S>& frame : frames_)
+      if (&frame != &current()) frame.forget_matches();
+    last().cam_from_world = current().cam_from_world;
+  }
+
   [[nodiscard]] TrackedFrame<S>& current() noexcept { return frames_[now_]; }
   [[nodiscard]] const TrackedFrame<S>& current() const noexcept { return frames_[now_]; }
   [[nodiscard]] TrackedFrame<S>& last() noexcept { return frames_[(now_ + 2) % frames_.size()]; }

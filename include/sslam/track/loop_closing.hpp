@@ -4,7 +4,9 @@
 // ORB-SLAM, T-RO 2015, section VII).
 #pragma once
 
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sslam/map/essential_graph.hpp"
@@ -13,6 +15,7 @@
 #include "sslam/solver/pose_graph_solver.hpp"
 #include "sslam/track/fusion.hpp"
 #include "sslam/track/loop_detection.hpp"
+#include "sslam/track/map_join.hpp"
 
 namespace sslam {
 
@@ -26,6 +29,13 @@ struct LoopAnswer {
   [[nodiscard]] S scale_at(KeyframeId keyframe) const {
     return new_from_old.empty() ? S(1) : new_from_old[Map<S>::index(keyframe)].scale;
   }
+};
+
+// How one map has become part of another.
+template <Scalar S>
+struct MapJoint {
+  Sim3<S> moved;  // its world, in the other
+  IdShift shift;
 };
 
 template <Scalar S>
@@ -47,7 +57,7 @@ class LoopClosing {
 
   // The keyframe has just been taken into the map.
   LoopAnswer<S> close(Map<S>& map, KeyframeId id) {
-    const std::optional<Loop<S>> loop = detection.find(map, id);
+    const std::optional<Loop<S>> loop = detection.find(map, id, map);
     if (!loop) return {};
     const bool drifted = share_in_place(map, map.keyframes[map.index(id)], *loop) < in_place;
     if (drifted && !bend(map, id, *loop)) return {};
@@ -58,6 +68,16 @@ class LoopClosing {
     }
     adjustment.optimise_all(map);
     return {true, new_from_old_};
+  }
+
+  // `other` becomes part of the map, as its keyframe `id`, which met the map there, says.
+  MapJoint<S> weld(Map<S>& map, Map<S> other, KeyframeId id, const Loop<S>& loop) {
+    MapJoint<S> joint;
+    joint.moved = loop.there_from_here(other.keyframes[map.index(id)].cam_from_world);
+    joint.shift = append(map, std::move(other), joint.moved, detection.max_turn);
+    join(map, id + joint.shift.keyframes, loop);
+    adjustment.optimise_all(map);
+    return joint;
   }
 
  private:
@@ -131,7 +151,10 @@ class LoopClosing {
 // The map stays as tracking made it.
 template <Scalar S>
 struct NoLoopClosing {
+  NoLoopDetection<S> detection;
+
   LoopAnswer<S> close(Map<S>&, KeyframeId) { return {}; }
+  MapJoint<S> weld(Map<S>&, Map<S>, KeyframeId, const Loop<S>&) { return {}; }
 };
 
 }  // namespace sslam

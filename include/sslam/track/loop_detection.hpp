@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop detection: a keyframe is looked for where the map lies without being connected with it. If its place
-// is found there, the depths of what it sees twice say by how much the scale has drifted in between.
+// Loop detection: a keyframe is looked for where the map lies without being connected with it, or in another
+// map. If its place is found there, the depths of what it sees twice say by how much the scale differs.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 #include "sslam/core/median.hpp"
 #include "sslam/geometry/sim3.hpp"
+#include "sslam/track/axis_names.hpp"
 #include "sslam/track/fallback.hpp"
 #include "sslam/track/place_recognition.hpp"
 #include "sslam/track/refinement.hpp"
@@ -23,6 +24,11 @@ struct Loop {
   std::vector<LandmarkId> point_landmarks;  // of that place, one for each of its features or kNone
   std::vector<LandmarkId> line_landmarks;
   int matches = 0;
+
+  // How the keyframe's world stands in that of the place.
+  [[nodiscard]] Sim3<S> there_from_here(const SE3<S>& cam_from_here) const {
+    return cam_from_world.inverse() * Sim3<S>{cam_from_here.rotation, cam_from_here.translation, 1};
+  }
 };
 
 template <Scalar S>
@@ -43,16 +49,20 @@ class LoopDetection {
     refinement.acceptance.min_inliers = 25;
   }
 
-  [[nodiscard]] std::optional<Loop<S>> find(Map<S>& map, KeyframeId id) {
-    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    connected_.assign(1, id);
-    for (const Neighbour& n : keyframe.neighbours) connected_.push_back(n.keyframe);
+  // The place of a keyframe of `here` in `there`, which may be the same map.
+  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>& here, KeyframeId id, Map<S>& there) {
+    const Keyframe<S>& keyframe = here.keyframes[here.index(id)];
+    connected_.clear();
+    if (&here == &there) {
+      connected_.push_back(id);
+      for (const Neighbour& n : keyframe.neighbours) connected_.push_back(n.keyframe);
+    }
     candidates_.clear();
-    if (places.most > 0) places.rank(map, keyframe.frame, candidates_, connected_);
+    if (places.most > 0) places.rank(there, keyframe.frame, candidates_, connected_);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       // Next to a keyframe that was tried in vain is the same place.
-      if (i > 0 && covisible(map.keyframes[map.index(candidates_[0])], candidates_[i])) continue;
-      if (auto loop = verify(map, keyframe, candidates_[i])) return loop;
+      if (i > 0 && covisible(there.keyframes[there.index(candidates_[0])], candidates_[i])) continue;
+      if (auto loop = verify(here, keyframe, there, candidates_[i])) return loop;
     }
     return std::nullopt;
   }
@@ -63,16 +73,17 @@ class LoopDetection {
                        [&](const Neighbour& n) { return n.keyframe == other; });
   }
 
-  [[nodiscard]] std::optional<Loop<S>> verify(Map<S>& map, const Keyframe<S>& keyframe, KeyframeId place) {
+  [[nodiscard]] std::optional<Loop<S>> verify(const Map<S>& here, const Keyframe<S>& keyframe, Map<S>& there,
+                                              KeyframeId place) {
     view_.frame = keyframe.frame;
     view_.grid.build(view_.frame.points, view_.frame.width, view_.frame.height);
-    view_.cam_from_world = map.keyframes[map.index(place)].cam_from_world;
-    if (!alignment.track_keyframe(map, place, nullptr, view_).ok()) return std::nullopt;
-    const PoseEstimate<S> estimate = refinement.refine(map, nullptr, view_);
+    view_.cam_from_world = there.keyframes[there.index(place)].cam_from_world;
+    if (!alignment.track_keyframe(there, place, nullptr, view_).ok()) return std::nullopt;
+    const PoseEstimate<S> estimate = refinement.refine(there, nullptr, view_);
     if (!estimate.ok()) return std::nullopt;
     const SO3<S> turn = view_.cam_from_world.rotation.inverse() * keyframe.cam_from_world.rotation;
-    if (!(turn.log().norm() < max_turn)) return std::nullopt;
-    const std::optional<S> ratio = depth_ratio(map, keyframe);
+    if (!agrees(here, there, turn)) return std::nullopt;
+    const std::optional<S> ratio = depth_ratio(here, keyframe, there);
     if (!ratio) return std::nullopt;
     const SE3<S>& pose = view_.cam_from_world;
     return Loop<S>{place,
@@ -82,24 +93,38 @@ class LoopDetection {
                    estimate.point_inliers + estimate.line_inliers};
   }
 
+  // One map turns by little on the way round a loop. Two may stand anyhow to each other, but if both know a
+  // Manhattan frame, one of them must be the same.
+  [[nodiscard]] bool agrees(const Map<S>& here, const Map<S>& there, const SO3<S>& there_from_here) const {
+    if (&here == &there) return there_from_here.log().norm() < max_turn;
+    const auto& known = there.world_from_manhattan;
+    return known.empty() || here.world_from_manhattan.empty() ||
+           std::any_of(here.world_from_manhattan.begin(), here.world_from_manhattan.end(),
+                       [&](const SO3<S>& frame) {
+                         return nearest_frame(known, there_from_here * frame, max_turn).has_value();
+                       });
+  }
+
   // Depth of a feature by the landmark it has at the place over that by the landmark it has where the
   // keyframe stands.
-  [[nodiscard]] std::optional<S> depth_ratio(const Map<S>& map, const Keyframe<S>& keyframe) {
+  [[nodiscard]] std::optional<S> depth_ratio(const Map<S>& here, const Keyframe<S>& keyframe,
+                                             const Map<S>& there) {
+    const bool same = &here == &there;
     ratios_.clear();
-    const auto compare = [&](const auto& here, const auto& there, auto depth) {
-      for (std::size_t i = 0; i < here.size(); ++i) {
-        if (here[i] == kNone || there[i] == kNone || here[i] == there[i]) continue;
-        const S old_depth = depth(view_.cam_from_world, there[i], i);
-        const S new_depth = depth(keyframe.cam_from_world, here[i], i);
+    const auto compare = [&](const auto& own, const auto& of_place, auto depth) {
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        if (own[i] == kNone || of_place[i] == kNone || (same && own[i] == of_place[i])) continue;
+        const S old_depth = depth(there, view_.cam_from_world, of_place[i], i);
+        const S new_depth = depth(here, keyframe.cam_from_world, own[i], i);
         if (old_depth > 0 && new_depth > 0) ratios_.push_back(old_depth / new_depth);
       }
     };
     compare(keyframe.point_landmarks, view_.point_landmarks,
-            [&](const SE3<S>& cam_from_world, LandmarkId id, std::size_t) {
+            [](const Map<S>& map, const SE3<S>& cam_from_world, LandmarkId id, std::size_t) {
               return (cam_from_world * map.points[map.index(id)].position).z();
             });
     compare(keyframe.line_landmarks, view_.line_landmarks,
-            [&](const SE3<S>& cam_from_world, LandmarkId id, std::size_t i) {
+            [&](const Map<S>& map, const SE3<S>& cam_from_world, LandmarkId id, std::size_t i) {
               const Segment2<S>& segment = keyframe.frame.lines[i].segment;
               const Vec2<S> middle = (segment.start + segment.end) / 2;
               const Vec3<S> ray = keyframe.frame.pinhole.unproject(middle).normalized();
@@ -111,14 +136,21 @@ class LoopDetection {
     const auto agree = std::count_if(ratios_.begin(), ratios_.end(), [&](S ratio) {
       return std::abs(std::log(ratio / drift)) < depth_agreement;
     });
-    const bool agreed = static_cast<S>(agree) >= min_depth_share * static_cast<S>(ratios_.size());
-    if (!agreed || !(std::abs(std::log(drift)) < std::log(max_scale_drift))) return std::nullopt;
+    if (static_cast<S>(agree) < min_depth_share * static_cast<S>(ratios_.size())) return std::nullopt;
+    // The scales of two maps are unrelated.
+    if (same && !(std::abs(std::log(drift)) < std::log(max_scale_drift))) return std::nullopt;
     return drift;
   }
 
   std::vector<KeyframeId> connected_, candidates_;
   TrackedFrame<S> view_;  // the keyframe, as a frame at the place
   std::vector<S> ratios_;
+};
+
+// Every place is new.
+template <Scalar S>
+struct NoLoopDetection {
+  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>&, KeyframeId, Map<S>&) { return std::nullopt; }
 };
 
 }  // namespace sslam

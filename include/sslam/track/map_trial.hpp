@@ -16,10 +16,14 @@ class MapTrial {
  public:
   int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
   int give_up_after = 15;      // frames in a row that speak against it until that happens
+  int leave_after = 30;        // the same for an older map, until it is left for a new one
   int telling_features = 50;   // points plus lines that make a lost frame speak against the map
   S max_turn = radians(S(5));  // between a pose and what the Manhattan frame says of its rotation, and
   S max_sigmas = 4;            // the same in standard deviations: beyond both they contradict each other
 
+  [[nodiscard]] bool young(const Map<S>& map) const noexcept {
+    return static_cast<int>(map.keyframes.size()) < young_map;
+  }
   [[nodiscard]] bool lost() const noexcept { return frames_ > 0; }
 
   // The place in a map that was not made here is yet to be found; however young, that map is not given up.
@@ -62,6 +66,10 @@ class MapTrial {
     return !given_ && (young(map) || (weighed && square_ < give_up_after));
   }
 
+  // An older map in which the camera has been lost for long. One that was given is never left: its world is
+  // where poses are wanted.
+  [[nodiscard]] bool leaves() const noexcept { return !given_ && unfit_ >= leave_after; }
+
   // Another map begins. Where one after the other is askew, the world is not as square as it looks: each of
   // them is given twice the time.
   void begin_again() noexcept {
@@ -70,9 +78,6 @@ class MapTrial {
   }
 
  private:
-  [[nodiscard]] bool young(const Map<S>& map) const noexcept {
-    return static_cast<int>(map.keyframes.size()) < young_map;
-  }
   [[nodiscard]] bool lost_young(const Map<S>& map) const noexcept {
     return unfit_ >= give_up_after && young(map);
   }

@@ -3,18 +3,17 @@
 // `pipeline.rotation.options.cone = ...` and replacing one is a template argument.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 
+#include "sslam/track/atlas.hpp"
 #include "sslam/track/backfill.hpp"
 #include "sslam/track/concepts.hpp"
 #include "sslam/track/frame_history.hpp"
-#include "sslam/track/keyframe_cursor.hpp"
-#include "sslam/track/map_trial.hpp"
 #include "sslam/track/motion_model.hpp"
 #include "sslam/track/relocalisation.hpp"
 #include "sslam/track/stage_timer.hpp"
-#include "sslam/track/trajectory_log.hpp"
 #include "sslam/track/upkeep.hpp"
 
 namespace sslam {
@@ -37,6 +36,7 @@ class Pipeline {
   Backfill<S> backfill;
   MapTrial<S> trial;
   Relocalisation<S> relocalisation;
+  Atlas<S> atlas;
   Timer timer;
   Upkeep upkeep;  // after the stages that it may still be at work with when the pipeline ends
 
@@ -44,34 +44,44 @@ class Pipeline {
   TrackResult<S> track(Frame<S>& frame) {
     timer.begin();
     TrackResult<S> result;
-    result.loop_closed = follow_map(upkeep.renew(map_));
+    result.loop_closed = follow_map(upkeep.renew(world_.map));
     frames_.begin(frame);
     result.index = frames_.current().frame.index;
     result.stamp = frames_.current().frame.stamp;
-    if (map_.empty())
-      initialise(result);
-    else
+    if (!world_.map.empty())
       follow(result);
-    if (map_.empty() || trial.undecided(map_))
+    else if (!revisit(result))
+      initialise(result);
+    if (world_.map.empty() || trial.undecided(world_.map) || trial.lost())
       backfill.keep(frames_.current());
     else
       backfill.clear();
+    result.world = world_.number;
     return result;
   }
 
   // Goes on in a map that was made earlier: the next frames are lost until one is recognised.
   void resume(Map<S> map) {
     start_over(std::move(map));
-    cursor_.move_to(0);  // never removed
+    world_.cursor.move_to(0);  // never removed
     trial.begin_in_given_map();
   }
 
-  // Takes what mapping elsewhere has still to say, and waits for it; true if that closed a loop. The next
+  // Takes what mapping elsewhere has still to say, and waits for it; true if that closed a loop. Of several
+  // worlds, the map and the trajectory are then those of the one in which most frames were tracked. The next
   // frame, if there is one, goes on from there.
-  bool finish() { return follow_map(upkeep.finish(map_)); }
+  bool finish() {
+    const bool loop_closed = follow_map(upkeep.finish(world_.map));
+    const std::size_t largest = atlas.largest();
+    if (largest < atlas.worlds().size() && Atlas<S>::smaller(world_, atlas.worlds()[largest]))
+      change_places(atlas.worlds()[largest]);
+    return loop_closed;
+  }
 
-  [[nodiscard]] const Map<S>& map() const noexcept { return map_; }
-  [[nodiscard]] const TrajectoryLog<S>& trajectory() const noexcept { return log_; }
+  // Of the world that the camera is in, or was in last.
+  [[nodiscard]] const Map<S>& map() const noexcept { return world_.map; }
+  [[nodiscard]] const TrajectoryLog<S>& trajectory() const noexcept { return world_.log; }
+  [[nodiscard]] int world() const noexcept { return world_.number; }
   [[nodiscard]] const TrackedFrame<S>& last_frame() const noexcept { return frames_.current(); }
 
  private:
@@ -82,16 +92,16 @@ class Pipeline {
     const RotationAnswer<S> answer = rotate(predicted, result);
     const SO3<S>& rotation_now = answer.trusted ? frame.manhattan->cam_from_world : predicted;
     frame.cam_from_world = {rotation_now, Vec3<S>::Zero()};
-    result.reason = initialisation.start(frame, map_);
+    result.reason = initialisation.start(frame, world_.map);
     timer.end(Stage::kInitialisation);
     if (result.reason != Reason::kFine) return;
-    mapping.begin(map_, frame, cursor_.scene_depth(map_, frame));
+    mapping.begin(world_.map, frame, world_.cursor.scene_depth(world_.map, frame));
     timer.end(Stage::kMapping);
-    for (const Keyframe<S>& kf : map_.keyframes)
-      log_.add(map_, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
-    cursor_.move_to(map_.keyframes.back().id);
-    backfill.run(map_, fallback, refinement, keyframes, mapping, log_);
-    frame.read_back(map_.keyframes[map_.index(cursor_.reference())]);
+    for (const Keyframe<S>& kf : world_.map.keyframes)
+      world_.log.add(world_.map, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
+    world_.cursor.move_to(world_.map.keyframes.back().id);
+    backfill.run(world_.map, fallback, refinement, keyframes, mapping, world_.log);
+    frame.read_back(reference());
     result.state = answer.trusted ? State::kManhattan : State::kFallback;
     result.cam_from_world = frame.cam_from_world;
     result.point_inliers = count_held(frame.point_landmarks);
@@ -102,16 +112,22 @@ class Pipeline {
   }
 
   void follow(TrackResult<S>& result) {
-    TrackedFrame<S>& frame = frames_.current();
     recent_.gather(frames_.last(), frames_.before_last());
     const bool lost = trial.lost();
     PoseEstimate<S> estimate;
     if (!lost || motion.reaches(result.stamp)) estimate = track_pose(result);
     const bool tracked = estimate.ok();
     if (!tracked && lost) estimate = relocalise(result);
-    if (!estimate.ok()) return lose(result, estimate.reason);
+    if (estimate.ok()) return settle(estimate, tracked, result);
+    if (!lost || !revisit(result)) lose(result, estimate.reason);
+  }
+
+  // The frame has its place; if it was not tracked there, then it has been found.
+  void settle(const PoseEstimate<S>& estimate, bool tracked, TrackResult<S>& result) {
+    TrackedFrame<S>& frame = frames_.current();
+    Map<S>& map = world_.map;
     trial.weigh(frame);
-    if (trial.refutes(map_)) return lose(result, Reason::kManhattanRejected);
+    if (trial.refutes(map)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = frame.cam_from_world;
@@ -120,44 +136,84 @@ class Pipeline {
       motion.stop();
       result.reason = Reason::kRelocalised;
     }
-    result.keyframe = cursor_.advance(map_, frame, estimate, keyframes, [&](S depth) {
-      return upkeep.insert(map_, frame, cursor_.reference(), depth, mapping, loops);
+    result.keyframe = world_.cursor.advance(map, frame, estimate, keyframes, [&](S depth) {
+      return upkeep.insert(map, frame, world_.cursor.reference(), depth, mapping, loops);
     });
     motion.update(frame.cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);
       close_loop(result);
+      meet_known(result);
+      timer.end(Stage::kLoops);
     }
-    log_.add(map_, result.index, result.stamp, cursor_.reference(), frame.cam_from_world);
+    world_.log.add(map, result.index, result.stamp, world_.cursor.reference(), frame.cam_from_world);
   }
 
   // The frame has just become a keyframe; the world may move under it.
   void close_loop(TrackResult<S>& result) {
     TrackedFrame<S>& frame = frames_.current();
-    const LoopAnswer<S> answer = upkeep.close(map_, cursor_.reference(), loops);
+    const LoopAnswer<S> answer = upkeep.close(world_.map, world_.cursor.reference(), loops);
     if (answer.closed) {
       result.loop_closed = true;
-      frame.read_back(map_.keyframes[map_.index(cursor_.reference())]);
-      if (!answer.new_from_old.empty()) log_.follow([&](KeyframeId id) { return answer.scale_at(id); });
-      motion.move_to(frame.cam_from_world, answer.scale_at(cursor_.reference()));
+      frame.read_back(reference());
+      if (!answer.new_from_old.empty()) world_.log.follow([&](KeyframeId id) { return answer.scale_at(id); });
+      motion.move_to(frame.cam_from_world, answer.scale_at(world_.cursor.reference()));
     }
-    timer.end(Stage::kLoops);
+  }
+
+  // The frame has just become a keyframe; it may show a place of a world that was left.
+  void meet_known(TrackResult<S>& result) {
+    for (std::size_t i = 0; i < atlas.worlds().size(); ++i) {
+      World<S>& known = atlas.worlds()[i];
+      std::optional<Loop<S>> place = find_in(known);
+      if (!place || !atlas.check.confirmed(reference(), known.map, *place, known.met)) continue;
+      if (const MapChange<S>* change = upkeep.finish(world_.map)) {
+        follow_map(change);  // the maps are joined as they are now
+        place = find_in(known);
+        if (!place) continue;
+      }
+      return join(atlas.take(i), *place, result);
+    }
+  }
+
+  [[nodiscard]] std::optional<Loop<S>> find_in(World<S>& known) {
+    return detection_.find(world_.map, world_.cursor.reference(), known.map);
+  }
+
+  [[nodiscard]] const Keyframe<S>& reference() const {
+    return world_.map.keyframes[world_.map.index(world_.cursor.reference())];
+  }
+
+  void join(World<S> known, const Loop<S>& meeting, TrackResult<S>& result) {
+    const MapJoint<S> joint = known.take_in(std::move(world_), meeting, loops);
+    world_ = std::move(known);
+    for (TrackedFrame<S>& frame : frames_.all()) {
+      joint.shift.apply_to_matches(frame);
+      frame.cam_from_world = carried(joint.moved, frame.cam_from_world);
+    }
+    TrackedFrame<S>& frame = frames_.current();
+    frame.read_back(reference());
+    motion.move_to(frame.cam_from_world, joint.moved.scale);
+    rotation.reset(world_.map.world_from_manhattan);
+    trial = world_.trial;
+    trial.end_loss();
+    atlas.forget_meetings();
+    result.maps_joined = true;
   }
 
   // The map has changed under the frames in hand; true if a loop was closed.
   bool follow_map(const MapChange<S>* change) {
     if (change == nullptr) return false;
-    const KeyframeId reference = cursor_.reference();
-    for (TrackedFrame<S>& frame : frames_.all()) change->carry(reference, frame);
-    motion.move_to(frames_.current().cam_from_world, change->scale_at(reference));
-    cursor_.refer_to(map_.carrier(reference));
-    if (change->loop_closed) log_.follow([&](KeyframeId id) { return change->scale_at(id); });
+    const KeyframeId fixed = world_.cursor.reference();
+    for (TrackedFrame<S>& frame : frames_.all()) change->carry(fixed, frame);
+    motion.move_to(frames_.current().cam_from_world, change->scale_at(fixed));
+    world_.follow(*change);
     return change->loop_closed;
   }
 
   RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
-    const RotationAnswer<S> answer = rotation.rotate(frames_.current(), predicted, !map_.empty());
-    map_.world_from_manhattan = rotation.world_from_manhattan();
+    const RotationAnswer<S> answer = rotation.rotate(frames_.current(), predicted, !world_.map.empty());
+    world_.map.world_from_manhattan = rotation.world_from_manhattan();
     result.axes_seen = answer.axes_seen;
     timer.end(Stage::kRotation);
     return answer;
@@ -176,10 +232,10 @@ class Pipeline {
       const Vec3<S> centre = predicted.inverse().translation;
       const SO3<S>& turned = frame.manhattan->cam_from_world;
       frame.cam_from_world = {turned, -(turned * centre)};
-      PoseEstimate<S> estimate = translation.translate(map_, recent_, frame);
+      PoseEstimate<S> estimate = translation.translate(world_.map, recent_, frame);
       timer.end(Stage::kTranslation);
       if (estimate.ok()) {
-        estimate = refinement.refine(map_, &*prior, frame);
+        estimate = refinement.refine(world_.map, &*prior, frame);
         timer.end(Stage::kRefinement);
         if (estimate.ok()) {
           result.state = State::kManhattan;
@@ -197,25 +253,25 @@ class Pipeline {
   PoseEstimate<S> track_features(const SE3<S>& predicted, const RotationPrior<S>* prior) {
     TrackedFrame<S>& frame = frames_.current();
     frame.cam_from_world = predicted;
-    PoseEstimate<S> estimate = fallback.track(map_, recent_, prior, frame);
+    PoseEstimate<S> estimate = fallback.track(world_.map, recent_, prior, frame);
     if (!estimate.ok()) {
       frame.cam_from_world = frames_.last().cam_from_world;
-      estimate = fallback.track_keyframe(map_, cursor_.reference(), prior, frame);
+      estimate = fallback.track_keyframe(world_.map, world_.cursor.reference(), prior, frame);
     }
     timer.end(Stage::kFallback);
     if (!estimate.ok()) return estimate;
-    estimate = refinement.refine(map_, prior, frame);
+    estimate = refinement.refine(world_.map, prior, frame);
     timer.end(Stage::kRefinement);
     return estimate;
   }
 
   PoseEstimate<S> relocalise(TrackResult<S>& result) {
     result.state = State::kFallback;
-    KeyframeId place = cursor_.reference();
+    KeyframeId place = world_.cursor.reference();
     const auto agrees = [&] { return stands_square(result); };
     const PoseEstimate<S> estimate =
-        relocalisation.find(map_, fallback, refinement, agrees, frames_.current(), place);
-    cursor_.refer_to(place);
+        relocalisation.find(world_.map, fallback, refinement, agrees, frames_.current(), place);
+    world_.cursor.refer_to(place);
     timer.end(Stage::kFallback);
     return estimate;
   }
@@ -229,31 +285,94 @@ class Pipeline {
     return !trial.contradicts(frames_.current());
   }
 
+  // The camera may be back in a world that was left; one of them is asked for each frame.
+  bool revisit(TrackResult<S>& result) {
+    const std::size_t index = atlas.next();
+    if (index >= atlas.worlds().size()) return false;
+    World<S>& known = atlas.worlds()[index];
+    TrackedFrame<S>& frame = frames_.current();
+    KeyframeId place = known.cursor.reference();
+    const auto agrees = [&] {
+      Rotation elsewhere = rotation;
+      elsewhere.reset(known.map.world_from_manhattan);
+      result.axes_seen = elsewhere.rotate(frame, frame.cam_from_world.rotation, true).axes_seen;
+      return !trial.contradicts(frame);
+    };
+    const PoseEstimate<S> estimate =
+        relocalisation.find(known.map, fallback, refinement, agrees, frame, place);
+    timer.end(Stage::kFallback);
+    if (!estimate.ok()) {
+      frame.forget_matches();
+      frame.forget_manhattan();
+      return false;
+    }
+    change_places(known);
+    if (trial.young(known.map)) (void)atlas.take(index);
+    world_.cursor.move_to(place);
+    result.state = State::kFallback;
+    settle(estimate, false, result);
+    return true;
+  }
+
   void lose(TrackResult<S>& result, Reason reason) {
     result.state = State::kLost;
     result.reason = reason;
     frames_.lose();
+    rotation.lose();
     trial.add_lost(frames_.current().frame);
-    if (trial.refutes(map_)) start_over({});
+    if (trial.refutes(world_.map)) {
+      begin_anew();
+    } else if (trial.leaves() && atlas.most > 0) {
+      leave_world();
+      atlas.lay_aside(std::move(world_));
+      begin_anew();
+    }
+  }
+
+  void begin_anew() {
+    start_over({});
+    world_.number = ++last_number_;
   }
 
   void start_over(Map<S> map) {
     upkeep.forget();
-    map_ = std::move(map);
-    log_.clear();
-    rotation.reset(map_.world_from_manhattan);
+    world_ = {};
+    world_.map = std::move(map);
+    rotation.reset(world_.map.world_from_manhattan);
     initialisation.reset();
     motion.stop();
     trial.begin_again();
     frames_.current().forget_manhattan();
     backfill.leave_world();
+    atlas.forget_meetings();
   }
 
-  Map<S> map_;
-  TrajectoryLog<S> log_;
+  // What mapping elsewhere has still to say comes in, and nothing after that.
+  void leave_world() {
+    if (const MapChange<S>* change = upkeep.finish(world_.map)) world_.follow(*change);
+    upkeep.forget();
+    world_.trial = trial;
+    detection_ = loops.detection;
+  }
+
+  // The current frame is in the other world, and what was the world until now is laid aside for it.
+  void change_places(World<S>& other) {
+    leave_world();
+    std::swap(world_, other);
+    trial = world_.trial;
+    rotation.reset(world_.map.world_from_manhattan);
+    initialisation.reset();
+    motion.stop();
+    frames_.change_world();
+    backfill.leave_world();
+    atlas.forget_meetings();
+  }
+
+  World<S> world_;
+  int last_number_ = 0;
+  decltype(Loops::detection) detection_;  // for worlds that were left; `loops` may be at work elsewhere
   FrameHistory<S> frames_;
   RecentLandmarks<S> recent_;
-  KeyframeCursor<S> cursor_;
 };
 
 }  // namespace sslam

@@ -72,11 +72,13 @@ struct TrackResult {
   State state = State::kInitialising;
   Reason reason = Reason::kFine;
   SE3<S> cam_from_world;  // meaningful where has_pose()
+  int world = 0;          // that the pose is in: each map that is begun has its own, until maps are joined
   int point_inliers = 0;
   int line_inliers = 0;
   int axes_seen = 0;         // Manhattan axes with support: 3, 2, 1 or 0
   bool keyframe = false;     // this frame joined the map
   bool loop_closed = false;  // by this frame's place, known from before; live: since the last frame
+  bool maps_joined = false;  // by this frame's place, known from a map that had been left
 
   [[nodiscard]] bool has_pose() const noexcept {
     return state == State::kManhattan || state == State::kFallback;

@@ -49,6 +49,9 @@ class ManhattanRotation {
   [[nodiscard]] const std::vector<SO3<S>>& world_from_manhattan() const noexcept {
     return frames.world_from_manhattan();
   }
+  // The frame has no pose after all: what was predicted of its rotation says nothing of an unknown Manhattan
+  // frame.
+  void lose() noexcept { frames.see_nothing(); }
   // Goes on with the Manhattan frames of a map, or with none.
   void reset(const std::vector<SO3<S>>& world_from_manhattan) {
     frames.reset(world_from_manhattan);
@@ -140,6 +143,7 @@ template <Scalar S>
 struct NoRotation {
   RotationAnswer<S> rotate(TrackedFrame<S>&, const SO3<S>&, bool) { return {}; }
   [[nodiscard]] std::vector<SO3<S>> world_from_manhattan() const { return {}; }
+  void lose() noexcept {}
   void reset(const std::vector<SO3<S>>&) {}
 };
 

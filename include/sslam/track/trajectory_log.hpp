@@ -32,6 +32,16 @@ class TrajectoryLog {
       entry.frame_from_reference.translation *= scale_at(entry.reference);
   }
 
+  // The other log's map has become part of this one's: what is added to its keyframes' ids, and what its
+  // lengths are multiplied by.
+  void append(const TrajectoryLog& other, std::int32_t shift, S scale) {
+    for (TrajectoryEntry<S> entry : other.entries_) {
+      entry.reference += shift;
+      entry.frame_from_reference.translation *= scale;
+      entries_.push_back(entry);
+    }
+  }
+
   // cam_from_world of an entry, by its keyframe's pose as it is now.
   [[nodiscard]] static SE3<S> pose(const Map<S>& map, const TrajectoryEntry<S>& entry) {
     return entry.frame_from_reference * map.pose(entry.reference);
