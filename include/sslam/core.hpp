@@ -111,6 +111,7 @@
 #include "sslam/track/keyframe_culling.hpp"
 #include "sslam/track/keyframe_cursor.hpp"
 #include "sslam/track/landmark_culling.hpp"
+#include "sslam/track/loop.hpp"
 #include "sslam/track/loop_closing.hpp"
 #include "sslam/track/loop_detection.hpp"
 #include "sslam/track/manhattan_frames.hpp"

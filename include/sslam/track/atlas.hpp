@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "sslam/track/meeting.hpp"
 #include "sslam/track/world.hpp"
 
 namespace sslam {
@@ -16,7 +15,6 @@ namespace sslam {
 template <Scalar S>
 class Atlas {
  public:
-  MeetingCheck<S> check;
   std::size_t most = 8;  // worlds; the smallest goes for one more. 0: a map is never left
 
   [[nodiscard]] const std::vector<World<S>>& worlds() const noexcept { return worlds_; }

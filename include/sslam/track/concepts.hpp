@@ -71,9 +71,10 @@ concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
 // Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift; or
 // a place of another map, and joins both.
 template <class T, class S>
-concept LoopStage = requires(T stage, Map<S>& map, const Loop<S>& loop) {
+concept LoopStage = requires(T stage, Map<S>& map, const Loop<S>& loop, std::optional<Meeting<S>>& met) {
   { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
   { stage.detection.find(std::as_const(map), KeyframeId{}, map) } -> std::same_as<std::optional<Loop<S>>>;
+  { stage.detection.check.confirmed(Keyframe<S>(), map, loop, met) } -> std::same_as<bool>;
   { stage.weld(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
 };
 

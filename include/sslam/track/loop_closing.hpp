@@ -59,7 +59,10 @@ class LoopClosing {
   LoopAnswer<S> close(Map<S>& map, KeyframeId id) {
     const std::optional<Loop<S>> loop = detection.find(map, id, map);
     if (!loop) return {};
-    const bool drifted = share_in_place(map, map.keyframes[map.index(id)], *loop) < in_place;
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    const bool drifted = share_in_place(map, keyframe, *loop) < in_place;
+    if (drifted && !detection.check.confirmed(keyframe, map, *loop, met_)) return {};
+    met_.reset();
     if (drifted && !bend(map, id, *loop)) return {};
     join(map, id, *loop);
     if (!drifted) {
@@ -146,6 +149,7 @@ class LoopClosing {
 
   LocalMap<S> place_;
   std::vector<Sim3<S>> new_from_old_;
+  std::optional<Meeting<S>> met_;  // a place that may be one which was left long ago
 };
 
 // The map stays as tracking made it.

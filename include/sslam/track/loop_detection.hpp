@@ -9,32 +9,19 @@
 #include <vector>
 
 #include "sslam/core/median.hpp"
-#include "sslam/geometry/sim3.hpp"
 #include "sslam/track/axis_names.hpp"
 #include "sslam/track/fallback.hpp"
+#include "sslam/track/meeting.hpp"
 #include "sslam/track/place_recognition.hpp"
 #include "sslam/track/refinement.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-struct Loop {
-  KeyframeId place = kNone;  // the keyframe that was met again
-  Sim3<S> cam_from_world;    // of the keyframe that closes the loop, in the world as it is around `place`
-  std::vector<LandmarkId> point_landmarks;  // of that place, one for each of its features or kNone
-  std::vector<LandmarkId> line_landmarks;
-  int matches = 0;
-
-  // How the keyframe's world stands in that of the place.
-  [[nodiscard]] Sim3<S> there_from_here(const SE3<S>& cam_from_here) const {
-    return cam_from_world.inverse() * Sim3<S>{cam_from_here.rotation, cam_from_here.translation, 1};
-  }
-};
-
-template <Scalar S>
 class LoopDetection {
  public:
   PlaceRecognition<S> places;  // places.most: keyframes to try; 0: no loop is ever found
+  MeetingCheck<S> check;
   FeatureFallback<S> alignment;
   LocalMapRefinement<S> refinement;
   S max_turn = radians(S(15));  // of the world between both places; structure lets it drift by much less
@@ -150,6 +137,8 @@ class LoopDetection {
 // Every place is new.
 template <Scalar S>
 struct NoLoopDetection {
+  MeetingCheck<S> check;
+
   [[nodiscard]] std::optional<Loop<S>> find(const Map<S>&, KeyframeId, Map<S>&) { return std::nullopt; }
 };
 

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When two maps may be joined. A building has many windows of one kind: one thing seen in both maps is not
-// yet a place. A second one is, if it stands where the first one says.
+// When two maps may be joined, or a loop be closed that moves the map. A building has many windows of one
+// kind: one thing that looks the same is not yet a place. A second one is, if it stands where the first one
+// says.
 #pragma once
 
 #include <optional>
 #include <unordered_set>
 #include <vector>
 
+#include "sslam/map/map.hpp"
 #include "sslam/map/map_deformation.hpp"
 #include "sslam/residual/line_reprojection.hpp"
-#include "sslam/track/loop_detection.hpp"
+#include "sslam/track/loop.hpp"
 
 namespace sslam {
 
-// A keyframe of one map, here, was found in another, there.
+// A keyframe of one map, here, was found in another, there; or elsewhere in the same one.
 template <Scalar S>
 struct Meeting {
   Sim3<S> there_from_here;

@@ -166,7 +166,7 @@ class Pipeline {
     for (std::size_t i = 0; i < atlas.worlds().size(); ++i) {
       World<S>& known = atlas.worlds()[i];
       std::optional<Loop<S>> place = find_in(known);
-      if (!place || !atlas.check.confirmed(reference(), known.map, *place, known.met)) continue;
+      if (!place || !detection_.check.confirmed(reference(), known.map, *place, known.met)) continue;
       if (const MapChange<S>* change = upkeep.finish(world_.map)) {
         follow_map(change);  // the maps are joined as they are now
         place = find_in(known);
