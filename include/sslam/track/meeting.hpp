@@ -4,8 +4,8 @@
 // says.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
-#include <unordered_set>
 #include <vector>
 
 #include "sslam/map/map.hpp"
@@ -19,15 +19,16 @@ namespace sslam {
 template <Scalar S>
 struct Meeting {
   Sim3<S> there_from_here;
-  std::unordered_set<LandmarkId> points, lines;  // of there, that it saw
+  std::vector<Vec3<S>> places;  // of the landmarks that it saw there; of lines, their middles
 };
 
 template <Scalar S>
 class MeetingCheck {
  public:
-  int min_new = 10;      // landmarks that the first meeting did not show
+  int min_new = 10;      // landmarks beside what the first meeting showed
+  S apart = S(0.1);      // from that, in the image, over its width
   S min_share = S(0.6);  // of them, that stand where the first meeting says
-  S reach = 30;          // pixels between that and where they are seen
+  S reach = 15;          // pixels between that and where they are seen
 
   // Whether a meeting and an earlier one bear each other out. `first` becomes the newer one where they
   // contradict each other.
@@ -38,8 +39,11 @@ class MeetingCheck {
       if (static_cast<S>(tally.near) >= min_share * static_cast<S>(tally.fresh))
         return tally.fresh >= min_new;
     }
-    first = Meeting<S>{loop.there_from_here(keyframe.cam_from_world), seen(loop.point_landmarks),
-                       seen(loop.line_landmarks)};
+    first = Meeting<S>{loop.there_from_here(keyframe.cam_from_world), {}};
+    for (const LandmarkId id : loop.point_landmarks)
+      if (id != kNone) first->places.push_back(place(there.points[there.index(id)]));
+    for (const LandmarkId id : loop.line_landmarks)
+      if (id != kNone) first->places.push_back(place(there.lines[there.index(id)]));
     return false;
   }
 
@@ -48,34 +52,48 @@ class MeetingCheck {
     int fresh = 0, near = 0;
   };
 
+  [[nodiscard]] static Vec3<S> place(const PointLandmark<S>& point) { return point.position; }
+  [[nodiscard]] static Vec3<S> place(const LineLandmark<S>& line) { return (line.start + line.end) / 2; }
+
   [[nodiscard]] Tally compare(const Keyframe<S>& keyframe, const Map<S>& there, const Loop<S>& loop,
                               const Meeting<S>& first) const {
     const SE3<S> expected = carried(first.there_from_here, keyframe.cam_from_world);
     const Frame<S>& frame = keyframe.frame;
+    const Eigen::AlignedBox<S, 2> known = box_around(first, frame, expected);
     Tally tally;
-    const auto count = [&](const auto& landmarks, const auto& known, auto is_near) {
-      for (std::size_t i = 0; i < landmarks.size(); ++i) {
-        if (landmarks[i] == kNone || known.contains(landmarks[i])) continue;
+    const auto count = [&](const auto& seen, const auto& landmarks, auto is_near) {
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (seen[i] == kNone) continue;
+        const auto& landmark = landmarks[there.index(seen[i])];
+        const Vec3<S> in_camera = expected * place(landmark);
+        const bool visible = in_camera.z() > 0;
+        if (visible && known.contains(frame.pinhole.project(in_camera))) continue;
         ++tally.fresh;
-        tally.near += is_near(Map<S>::index(landmarks[i]), i);
+        tally.near += visible && is_near(landmark, i);
       }
     };
-    count(loop.point_landmarks, first.points, [&](std::size_t id, std::size_t i) {
-      const Vec3<S> in_camera = expected * there.points[id].position;
-      return in_camera.z() > 0 && (frame.pinhole.project(in_camera) - frame.points[i].pixel).norm() < reach;
+    count(loop.point_landmarks, there.points, [&](const PointLandmark<S>& point, std::size_t i) {
+      return (frame.pinhole.project(expected * point.position) - frame.points[i].pixel).norm() < reach;
     });
-    count(loop.line_landmarks, first.lines, [&](std::size_t id, std::size_t i) {
+    count(loop.line_landmarks, there.lines, [&](const LineLandmark<S>& landmark, std::size_t i) {
       LineReprojection<S> line;
-      return line_reprojection(frame.pinhole, expected, there.lines[id].line, frame.lines[i].segment, line) &&
+      return line_reprojection(frame.pinhole, expected, landmark.line, frame.lines[i].segment, line) &&
              line.error.cwiseAbs().maxCoeff() < reach;
     });
     return tally;
   }
 
-  [[nodiscard]] static std::unordered_set<LandmarkId> seen(const std::vector<LandmarkId>& landmarks) {
-    std::unordered_set<LandmarkId> ids(landmarks.begin(), landmarks.end());
-    ids.erase(kNone);
-    return ids;
+  // Where the view shows what the first meeting showed, and what lies next to it.
+  [[nodiscard]] Eigen::AlignedBox<S, 2> box_around(const Meeting<S>& first, const Frame<S>& frame,
+                                                   const SE3<S>& view) const {
+    Eigen::AlignedBox<S, 2> box;
+    for (const Vec3<S>& landmark : first.places) {
+      const Vec3<S> in_camera = view * landmark;
+      if (in_camera.z() > 0) box.extend(frame.pinhole.project(in_camera));
+    }
+    const S margin = apart * static_cast<S>(frame.width);
+    if (!box.isEmpty()) box = {box.min().array() - margin, box.max().array() + margin};
+    return box;
   }
 };
 
