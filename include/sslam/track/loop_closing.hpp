@@ -60,8 +60,12 @@ class LoopClosing {
     const std::optional<Loop<S>> loop = detection.find(map, id, map);
     if (!loop) return {};
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    const bool drifted = share_in_place(map, keyframe, *loop) < in_place;
-    if (drifted && !detection.check.confirmed(keyframe, map, *loop, met_)) return {};
+    const bool drifted = share_in_place(map, keyframe, *loop, fusion.point_radius) < in_place;
+    // A place that the map expects nearby needs no second thing.
+    const MeetingCheck<S>& check = detection.check;
+    if (drifted && share_in_place(map, keyframe, *loop, check.reach) < check.min_share &&
+        !check.confirmed(keyframe, map, *loop, met_))
+      return {};
     met_.reset();
     if (drifted && !bend(map, id, *loop)) return {};
     join(map, id, *loop);
@@ -84,8 +88,10 @@ class LoopClosing {
   }
 
  private:
-  // Of the landmarks of the place that the keyframe sees, how many lie within reach of fusion already.
-  [[nodiscard]] S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& loop) const {
+  // Of the landmarks of the place that the keyframe sees, how many lie within `reach`, in the feature's
+  // sigma, of where the map has them.
+  [[nodiscard]] S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& loop,
+                                 S reach) const {
     int seen = 0, near = 0;
     for (std::size_t i = 0; i < loop.point_landmarks.size(); ++i) {
       if (loop.point_landmarks[i] == kNone) continue;
@@ -93,8 +99,7 @@ class LoopClosing {
       const PointFeature<S>& feature = keyframe.frame.points[i];
       const auto predicted = predict_point(map.points[map.index(loop.point_landmarks[i])], keyframe.frame,
                                            keyframe.cam_from_world, S(-1));
-      near +=
-          predicted.visible && (predicted.pixel - feature.pixel).norm() < fusion.point_radius * feature.sigma;
+      near += predicted.visible && (predicted.pixel - feature.pixel).norm() < reach * feature.sigma;
     }
     return seen > 0 ? static_cast<S>(near) / static_cast<S>(seen) : S(0);
   }
