@@ -229,6 +229,42 @@ TEST_CASE("run finds its place in the map of an earlier run") {
   require_refused(copy.run("--map " + (copy.folder / "rgb.txt").string()), "rgb.txt: is no map");
 }
 
+TEST_CASE("run begins a new map in another room and says that the two stand apart") {
+  const Copy copy;
+  const fs::path other = copy.scratch.path() / "other";
+  REQUIRE(run_program("synth " + other.string() + " --quiet --frames " + std::to_string(kFrames) +
+                      " --seed 8 --size 480x360 --no-depth --no-normals")
+              .code == 0);
+  std::ofstream list(copy.folder / "rgb.txt", std::ios::app);
+  for (int k = 0; k < kFrames; ++k) {
+    const std::string name = std::to_string(1000000 + k).substr(1) + ".jpg";
+    fs::copy(other / "rgb" / name, copy.folder / "rgb" / ("other_" + name));
+    list << 3 + k / 30.0 << " rgb/other_" << name << '\n';
+  }
+  list.close();
+  const Outcome outcome = copy.run("--set atlas.leave_after=10");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("maps apart       1, with ") != std::string::npos);
+  const auto metrics = copy.metrics();
+  REQUIRE(metrics["maps_apart"] == 1);
+  REQUIRE(metrics["maps_joined"] == 0);
+  REQUIRE(metrics["tracked"] >= metrics["frames_apart"]);
+  REQUIRE(metrics["frames_apart"] > kFrames / 2);
+  // Only poses of the world that was written.
+  const double written_from = metrics["world"] == 0 ? 0 : 3;
+  for (const char* name : {"trajectory.txt", "trajectory_live.txt"}) {
+    std::istringstream poses(text_of(copy.out / name));
+    double stamp = -1;
+    for (std::string line; std::getline(poses, line);)
+      if (line[0] != '#') {
+        stamp = std::stod(line);
+        REQUIRE((stamp >= written_from && stamp < written_from + 2.5));
+      }
+    REQUIRE(stamp > 0);
+  }
+}
+
 TEST_CASE("run refuses what it cannot use with one line") {
   const Copy copy;
   const auto scratch = [&](const std::string& name) { return (copy.scratch.path() / name).string(); };
