@@ -2,7 +2,6 @@
 #include "cli/live_run.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "cli/base64.hpp"
@@ -10,6 +9,7 @@
 #include "cli/map_figures.hpp"
 #include "cli/report.hpp"
 #include "cli/report_data.hpp"
+#include "sslam/core/move_to_end.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -32,12 +32,6 @@ Map<double> landmarks_of(const Map<double>& map) {
   }
   seen.planes = map.planes;
   return seen;
-}
-
-template <class Value>
-void move_to_end(std::vector<Value>& from, std::vector<Value>& to) {
-  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-  from.clear();
 }
 
 }  // namespace

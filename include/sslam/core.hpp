@@ -6,6 +6,7 @@
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/inline_vector.hpp"
 #include "sslam/core/median.hpp"
+#include "sslam/core/move_to_end.hpp"
 #include "sslam/core/random.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/types.hpp"
@@ -73,6 +74,7 @@
 #include "sslam/manhattan/frame_refiner.hpp"
 #include "sslam/manhattan/frame_score.hpp"
 #include "sslam/manhattan/line_circles.hpp"
+#include "sslam/manhattan/nearest_frame.hpp"
 #include "sslam/manhattan/normal_modes.hpp"
 #include "sslam/manhattan/rotation.hpp"
 #include "sslam/manhattan/search.hpp"
@@ -95,6 +97,7 @@
 #include "sslam/map/map_deformation.hpp"
 #include "sslam/map/plane_extent.hpp"
 #include "sslam/map/plane_ties.hpp"
+
 #include "sslam/track/atlas.hpp"
 #include "sslam/track/axis_names.hpp"
 #include "sslam/track/backfill.hpp"

@@ -100,4 +100,10 @@ struct Sim3 {
 };
 static_assert(Manifold<Sim3<float>> && Manifold<Sim3<double>>);
 
+// The motion as a similarity of scale 1.
+template <Scalar S>
+[[nodiscard]] Sim3<S> similarity(const SE3<S>& motion) noexcept {
+  return {motion.rotation, motion.translation, 1};
+}
+
 }  // namespace sslam

@@ -74,8 +74,6 @@ class EssentialGraph {
     graph.edges.back().inverse_sigma *= options.loop_certainty;
   }
 
-  [[nodiscard]] static Sim3<S> similarity(const SE3<S>& pose) { return {pose.rotation, pose.translation, 1}; }
-
  private:
   // To each older neighbour that shares enough, and to the one that shares most; without any, to the one
   // before.

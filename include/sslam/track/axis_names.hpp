@@ -4,10 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "sslam/manhattan/cube.hpp"
+#include "sslam/manhattan/nearest_frame.hpp"
 #include "sslam/map/manhattan_axes.hpp"
 
 namespace sslam {
@@ -21,20 +20,6 @@ struct AxisNames {
     return number == kNone ? std::int8_t{kNone} : renamed[static_cast<std::size_t>(number)];
   }
 };
-
-// The Manhattan frame closest to one that stands in the world like this, if that is within max_turn, radians.
-template <Scalar S>
-[[nodiscard]] std::optional<std::size_t> nearest_frame(const std::vector<SO3<S>>& world_from_manhattan,
-                                                       const SO3<S>& wanted, S max_turn) {
-  std::optional<std::size_t> nearest;
-  for (std::size_t i = 0; i < world_from_manhattan.size(); ++i) {
-    const S turn = angle_between_frames(wanted, world_from_manhattan[i]);
-    if (!(turn < max_turn)) continue;
-    max_turn = turn;
-    nearest = i;
-  }
-  return nearest;
-}
 
 // Frames of the other world within `max_turn`, radians, of one of `into` are the same; the rest are added to
 // `into`. `into_from_other` is the rotation as it was measured.

@@ -19,7 +19,7 @@ struct Loop {
 
   // How the keyframe's world stands in that of the place.
   [[nodiscard]] Sim3<S> there_from_here(const SE3<S>& cam_from_here) const {
-    return cam_from_world.inverse() * Sim3<S>{cam_from_here.rotation, cam_from_here.translation, 1};
+    return cam_from_world.inverse() * similarity(cam_from_here);
   }
 };
 

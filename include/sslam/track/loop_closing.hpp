@@ -108,14 +108,13 @@ class LoopClosing {
   [[nodiscard]] bool bend(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
     essential.gather(map, adjustment.window_options);
     const SE3<S>& place = map.keyframes[map.index(loop.place)].cam_from_world;
-    essential.add_loop(map, loop.place, id, loop.cam_from_world * essential.similarity(place).inverse(),
-                       loop.matches);
+    essential.add_loop(map, loop.place, id, loop.cam_from_world * similarity(place).inverse(), loop.matches);
     if (!improved(pose_graph.solve(essential.graph))) return false;
     new_from_old_.assign(map.keyframes.size(), {});
     for (std::size_t n = 0; n < essential.keyframes.size(); ++n) {
       const auto k = map.index(essential.keyframes[n]);
-      new_from_old_[k] = essential.graph.nodes[n].cam_from_world.inverse() *
-                         essential.similarity(map.keyframes[k].cam_from_world);
+      new_from_old_[k] =
+          essential.graph.nodes[n].cam_from_world.inverse() * similarity(map.keyframes[k].cam_from_world);
     }
     deform<S>(map, new_from_old_);
     return true;

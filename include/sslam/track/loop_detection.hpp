@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sslam/core/median.hpp"
-#include "sslam/track/axis_names.hpp"
+#include "sslam/manhattan/nearest_frame.hpp"
 #include "sslam/track/fallback.hpp"
 #include "sslam/track/meeting.hpp"
 #include "sslam/track/place_recognition.hpp"
@@ -113,8 +113,7 @@ class LoopDetection {
     compare(keyframe.line_landmarks, view_.line_landmarks,
             [&](const Map<S>& map, const SE3<S>& cam_from_world, LandmarkId id, std::size_t i) {
               const Segment2<S>& segment = keyframe.frame.lines[i].segment;
-              const Vec2<S> middle = (segment.start + segment.end) / 2;
-              const Vec3<S> ray = keyframe.frame.pinhole.unproject(middle).normalized();
+              const Vec3<S> ray = keyframe.frame.pinhole.unproject(segment.midpoint()).normalized();
               const Line3<S> line = transform(cam_from_world, map.lines[map.index(id)].line);
               return line.closest_to_ray(Vec3<S>::Zero(), ray).z();
             });

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "sslam/manhattan/cube.hpp"
+#include "sslam/manhattan/nearest_frame.hpp"
 
 namespace sslam {
 
@@ -41,15 +41,8 @@ class ManhattanFrames {
   [[nodiscard]] std::optional<std::size_t> which(const SO3<S>& world_from_manhattan) const {
     if (last_ && angle_between_frames(world_from_manhattan, last_->world_from_manhattan) < agreement)
       return last_->index;
-    std::optional<std::size_t> nearest;
-    S least = most > 1 ? told_apart : std::numeric_limits<S>::max();
-    for (std::size_t i = 0; i < known_.size(); ++i) {
-      const S angle = angle_between_frames(world_from_manhattan, known_[i]);
-      if (angle < least) {
-        least = angle;
-        nearest = i;
-      }
-    }
+    const S within = most > 1 ? told_apart : std::numeric_limits<S>::max();
+    const std::optional<std::size_t> nearest = nearest_frame(known_, world_from_manhattan, within);
     return nearest ? nearest : askew_;
   }
 

@@ -2,10 +2,10 @@
 // Two maps become one: the second moves into the world of the first, and its ids follow those of the first.
 #pragma once
 
-#include <iterator>
 #include <utility>
 #include <vector>
 
+#include "sslam/core/move_to_end.hpp"
 #include "sslam/map/map_deformation.hpp"
 #include "sslam/track/axis_names.hpp"
 
@@ -27,12 +27,6 @@ struct IdShift {
 };
 
 namespace detail {
-
-template <class T>
-void move_to_end(std::vector<T>& to, std::vector<T>& from) {
-  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-  from.clear();
-}
 
 inline void shift_ids(LandmarkCommon& landmark, const IdShift& shift) {
   for (Observation& o : landmark.observations) o.keyframe += shift.keyframes;
@@ -69,10 +63,10 @@ IdShift append(Map<S>& map, Map<S> other, const Sim3<S>& map_from_other, S max_t
     line.axis = names(line.axis);
   }
   for (PlaneLandmark<S>& plane : other.planes) plane.axis = names(plane.axis);
-  detail::move_to_end(map.keyframes, other.keyframes);
-  detail::move_to_end(map.points, other.points);
-  detail::move_to_end(map.lines, other.lines);
-  detail::move_to_end(map.planes, other.planes);
+  move_to_end(other.keyframes, map.keyframes);
+  move_to_end(other.points, map.points);
+  move_to_end(other.lines, map.lines);
+  move_to_end(other.planes, map.planes);
   map.collect_free_ids();
   return shift;
 }
