@@ -134,6 +134,7 @@
 #include "sslam/track/plane_points.hpp"
 #include "sslam/track/planes.hpp"
 #include "sslam/track/pose_estimate.hpp"
+#include "sslam/track/pose_tracking.hpp"
 #include "sslam/track/presets.hpp"
 #include "sslam/track/refinement.hpp"
 #include "sslam/track/relocalisation.hpp"

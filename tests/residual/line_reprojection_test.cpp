@@ -11,16 +11,13 @@ using namespace sslam::testing;
 
 namespace {
 
-constexpr double kAgree = 1e-6;
-constexpr double kDiffer = 1e-4;
-
 Vec2<double> error_at(const ResidualScene& scene, const SE3<double>& pose, const Line3<double>& line) {
   LineReprojection<double> out;
   REQUIRE(line_reprojection(scene.pinhole, pose, line, scene.observed, out));
   return out.error;
 }
 
-Mat<double, 2, 6> numeric_pose(const ResidualScene& scene) {
+Mat<double, 2, 6> numeric_line_pose(const ResidualScene& scene) {
   return numeric_jacobian([&](const SE3<double>& pose) { return error_at(scene, pose, scene.line()); },
                           scene.cam_from_world, 1e-4);
 }
@@ -72,7 +69,7 @@ TEMPLATE_TEST_CASE("line Jacobians entry by entry", "", float, double) {
     LineReprojection<S> out;
     REQUIRE(line_reprojection<S>(k, pose, line,
                                  {scene.observed.start.cast<S>(), scene.observed.end.cast<S>()}, out));
-    const auto numeric = numeric_pose(scene);
+    const auto numeric = numeric_line_pose(scene);
     const Mat<double, 2, 3> translation = numeric.rightCols<3>();
     CHECK(worst_entry(out.wrt_pose(), numeric, 1e-2).error < agree);
     CHECK(worst_entry(out.wrt_translation(), translation, 1e-2).error < agree);
@@ -92,7 +89,7 @@ TEST_CASE("the comparison kills wrong line Jacobians") {
     const ResidualScene scene(random);
     LineReprojection<double> out;
     REQUIRE(line_reprojection(scene.pinhole, scene.cam_from_world, scene.line(), scene.observed, out));
-    const Mat<double, 2, 6> truth = numeric_pose(scene), j = out.wrt_pose();
+    const Mat<double, 2, 6> truth = numeric_line_pose(scene), j = out.wrt_pose();
     for_each_mutant<double, 2, 6>(j, [&](const char* name, const auto& m) { kill(name, m, truth); });
     Mat<double, 2, 6> m = j;
     m.leftCols<3>() = -out.wrt_moment * hat(scene.line().moment);

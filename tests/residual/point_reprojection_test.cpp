@@ -13,9 +13,6 @@ using namespace sslam::testing;
 
 namespace {
 
-constexpr double kAgree = 1e-6;
-constexpr double kDiffer = 1e-4;
-
 template <class S>
 PointReprojection<S> evaluate(const ResidualScene& scene) {
   PointReprojection<S> out;
@@ -31,7 +28,7 @@ Vec2<double> error_at(const ResidualScene& scene, const SE3<double>& pose, const
   return out.error;
 }
 
-Mat<double, 2, 6> numeric_pose(const ResidualScene& scene) {
+Mat<double, 2, 6> numeric_point_pose(const ResidualScene& scene) {
   return numeric_jacobian([&](const SE3<double>& pose) { return error_at(scene, pose, scene.start); },
                           scene.cam_from_world);
 }
@@ -53,7 +50,7 @@ TEMPLATE_TEST_CASE("point Jacobians entry by entry", "", float, double) {
   for (int i = 0; i < 50; ++i) {
     const ResidualScene scene(random);
     const auto out = evaluate<S>(scene);
-    const auto pose = numeric_pose(scene);
+    const auto pose = numeric_point_pose(scene);
     const Mat<double, 2, 3> translation = pose.rightCols<3>();
     const auto point = numeric_jacobian(
         [&](const Euclidean<double, 3>& p) { return error_at(scene, scene.cam_from_world, p.value); },
@@ -76,7 +73,7 @@ TEST_CASE("the comparison kills wrong point Jacobians") {
   for (int i = 0; i < 30; ++i) {
     const ResidualScene scene(random);
     const auto out = evaluate<double>(scene);
-    const Mat<double, 2, 6> truth = numeric_pose(scene), j = out.wrt_pose();
+    const Mat<double, 2, 6> truth = numeric_point_pose(scene), j = out.wrt_pose();
     for_each_mutant<double, 2, 6>(j, [&](const char* name, const auto& m) { kill(name, m, truth); });
     const Mat3<double> R = scene.cam_from_world.rotation.matrix();
     Mat<double, 2, 6> m = -j;

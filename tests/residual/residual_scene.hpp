@@ -8,6 +8,10 @@
 
 namespace sslam::testing {
 
+// Entries of two Jacobians over the larger of both: those of one function agree, a mutant's differs.
+constexpr double kAgree = 1e-6;
+constexpr double kDiffer = 1e-4;
+
 struct ResidualScene {
   Pinhole<double> pinhole{500, 530, 320, 240};  // fx and fy apart, so that one taken for the other shows
   SE3<double> cam_from_world;

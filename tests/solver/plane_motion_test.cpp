@@ -15,10 +15,10 @@ namespace {
 using testing::gaussian;
 using testing::gaussian_vector;
 
-constexpr int kTrials = 60;
+constexpr int kPlaneTrials = 60;
 constexpr double kFocal = 500;
 
-struct Scene {
+struct PlaneScene {
   int matches = 60;
   double wrong = 0;  // share that does not lie on the plane, or is no match at all
   double noise = 1;  // pixels
@@ -32,7 +32,7 @@ struct Views {
   std::vector<BearingMatch<double>> matches;
   std::vector<bool> right;
 
-  Views(const Scene& scene, std::uint64_t seed) {
+  Views(const PlaneScene& scene, std::uint64_t seed) {
     Random random(seed);
     R_10 = SO3<double>::exp(radians(8.0) * gaussian_vector<3>(random).normalized());
     n_0 = Vec3<double>(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), 1).normalized();
@@ -72,7 +72,7 @@ TEMPLATE_TEST_CASE("plane motion: the predicted accuracy is reached, with few ma
   for (const int matches : {8, 20, 200}) {
     double chi2 = 0;
     int found = 0;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < kPlaneTrials; ++trial) {
       const Views views({.matches = matches}, static_cast<std::uint64_t>(trial));
       const auto motion = views.solve<S>();
       if (!usable(motion.status)) continue;
@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE("plane motion: the predicted accuracy is reached, with few ma
       chi2 += error.dot(motion.covariance.template cast<double>().inverse() * error);
     }
     CAPTURE(matches, chi2 / found);
-    CHECK(found >= kTrials * 9 / 10);
+    CHECK(found >= kPlaneTrials * 9 / 10);
     CHECK(chi2 / found > 1.5);  // 3 when the covariance is exact
     CHECK(chi2 / found < 4.5);
   }
@@ -91,7 +91,7 @@ TEMPLATE_TEST_CASE("plane motion: a third of the matches may lie off the plane",
   using S = TestType;
   int found = 0;
   double worst = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < kPlaneTrials; ++trial) {
     const Views views({.matches = 90, .wrong = 0.33, .motion = 0.2}, static_cast<std::uint64_t>(trial));
     std::vector<std::uint8_t> inliers(views.matches.size(), 7);
     const auto motion = views.solve<S>(inliers);
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE("plane motion: a third of the matches may lie off the plane",
     CHECK(kept > 0.9 * right);
   }
   CAPTURE(found, worst);
-  CHECK(found >= kTrials * 9 / 10);
+  CHECK(found >= kPlaneTrials * 9 / 10);
   CHECK(worst < 0.03);
 }
 

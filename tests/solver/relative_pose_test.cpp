@@ -13,7 +13,7 @@
 namespace sslam {
 namespace {
 
-constexpr int kTrials = 40;
+constexpr int kRelativePoseTrials = 40;
 using Pose = RelativePose<double>;
 static_assert(Manifold<RelativePose<float>> && Manifold<RelativePose<double>>);
 
@@ -22,16 +22,16 @@ double rotation_error_deg(const SO3<S>& found, const SO3<double>& truth) {
   return degrees(angle_between(found.template cast<double>(), truth));
 }
 
-struct Score {
+struct RelativePoseScore {
   int ok = 0, low_parallax = 0, degenerate = 0, wrong = 0;
   double chi2_t = 0, chi2_R = 0;
 };
 
 // wrong: usable, but more than 6 degrees off in the translation.
 template <Scalar S>
-Score find(const TwoViewOptions& o) {
-  Score score;
-  for (int trial = 0; trial < kTrials; ++trial) {
+RelativePoseScore find(const TwoViewOptions& o) {
+  RelativePoseScore score;
+  for (int trial = 0; trial < kRelativePoseTrials; ++trial) {
     const TwoViews views = make_two_views(o, static_cast<std::uint64_t>(trial));
     const auto matches = views.as<S>();
     SO3<S> R;
@@ -85,7 +85,7 @@ TEMPLATE_TEST_CASE("rotation from bearings: pure rotation with mismatches", "", 
   using S = TestType;
   for (const double mismatches : {0.0, 0.3, 0.5}) {
     double chi2 = 0;
-    for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+    for (std::uint64_t seed = 0; seed < kRelativePoseTrials; ++seed) {
       const TwoViews views =
           make_two_views({.mismatches = mismatches, .turn = 12, .scene = TwoViewOptions::kInfinite}, seed);
       const auto matches = views.as<S>();
@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE("rotation from bearings: pure rotation with mismatches", "", 
       CHECK(answer.inliers == std::count(inliers.begin(), inliers.end(), 1));
       CHECK(answer.inliers > 0.95 * std::count(views.correct.begin(), views.correct.end(), true));
       const Vec3<double> phi = (views.R_10 * answer.R_10.template cast<double>().inverse()).log();
-      chi2 += phi.dot(answer.covariance.template cast<double>().inverse() * phi) / kTrials;
+      chi2 += phi.dot(answer.covariance.template cast<double>().inverse() * phi) / kRelativePoseTrials;
     }
     CAPTURE(mismatches);
     CHECK(chi2 > 1.5);  // 3 when the covariance is exact
@@ -119,7 +119,7 @@ TEMPLATE_TEST_CASE("relative pose: refinement reaches the predicted accuracy", "
   for (const double mismatches : {0.0, 0.3}) {
     double chi2_t = 0, chi2_R = 0;
     int ok = 0;
-    for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+    for (std::uint64_t seed = 0; seed < kRelativePoseTrials; ++seed) {
       const TwoViews views = make_two_views({.mismatches = mismatches, .baseline = 0.6}, seed);
       const auto matches = views.as<S>();
       SO3<S> R = views.R_10.retract(Vec3<double>(0.003, -0.004, 0.003)).template cast<S>();
@@ -133,7 +133,7 @@ TEMPLATE_TEST_CASE("relative pose: refinement reaches the predicted accuracy", "
       CHECK(std::abs(answer.mean_squared_error - 1) < 0.25);
     }
     CAPTURE(mismatches, ok);
-    CHECK(ok >= kTrials - 2);
+    CHECK(ok >= kRelativePoseTrials - 2);
     CHECK(chi2_t / ok < 4);  // 2 when the covariance is exact
     CHECK(chi2_R / ok < 6);  // 3
     CHECK(chi2_t / ok > 1);
@@ -163,9 +163,9 @@ TEMPLATE_TEST_CASE("relative pose: a prior on the rotation sharpens the translat
 
 TEMPLATE_TEST_CASE("relative pose: found from nothing for turns up to 10 degrees", "", float, double) {
   for (const double turn : {0.0, 5.0, 10.0}) {
-    const Score s = find<TestType>({.mismatches = 0.3, .baseline = 0.5, .turn = turn});
+    const RelativePoseScore s = find<TestType>({.mismatches = 0.3, .baseline = 0.5, .turn = turn});
     CAPTURE(turn, s.ok, s.chi2_t, s.chi2_R);
-    CHECK(s.ok >= kTrials - 3);
+    CHECK(s.ok >= kRelativePoseTrials - 3);
     CHECK(s.wrong == 0);
     CHECK(s.chi2_t < 5);  // 2 when the covariance is exact
     CHECK(s.chi2_R < 6);  // 3
@@ -173,14 +173,15 @@ TEMPLATE_TEST_CASE("relative pose: found from nothing for turns up to 10 degrees
 }
 
 TEMPLATE_TEST_CASE("relative pose: half of the matches may be wrong", "", float, double) {
-  const Score s = find<TestType>({.mismatches = 0.5, .baseline = 0.5});
-  CHECK(s.ok >= kTrials - 4);
+  const RelativePoseScore s = find<TestType>({.mismatches = 0.5, .baseline = 0.5});
+  CHECK(s.ok >= kRelativePoseTrials - 4);
   CHECK(s.wrong == 0);
 }
 
 TEMPLATE_TEST_CASE("relative pose: pure rotation is low parallax", "", float, double) {
-  const Score s = find<TestType>({.mismatches = 0.3, .turn = 8, .scene = TwoViewOptions::kInfinite});
-  CHECK(s.low_parallax >= kTrials - 2);
+  const RelativePoseScore s =
+      find<TestType>({.mismatches = 0.3, .turn = 8, .scene = TwoViewOptions::kInfinite});
+  CHECK(s.low_parallax >= kRelativePoseTrials - 2);
   CHECK(s.ok == 0);
 }
 
@@ -197,11 +198,11 @@ TEMPLATE_TEST_CASE("relative pose: a camera that stands still is low parallax", 
 
 TEMPLATE_TEST_CASE("relative pose: a flat scene is solved where it has one answer and refused elsewhere", "",
                    float, double) {
-  const Score s =
+  const RelativePoseScore s =
       find<TestType>({.mismatches = 0.3, .noise = 0.5, .baseline = 0.5, .scene = TwoViewOptions::kFlat});
   CAPTURE(s.ok, s.degenerate, s.wrong);
-  CHECK(s.ok >= kTrials / 8);
-  CHECK(s.ok + s.degenerate >= kTrials - 2);
+  CHECK(s.ok >= kRelativePoseTrials / 8);
+  CHECK(s.ok + s.degenerate >= kRelativePoseTrials - 2);
   CHECK(s.wrong <= 1);
 }
 
@@ -209,7 +210,7 @@ TEMPLATE_TEST_CASE("relative pose: a rotation prior decides between the answers 
                    double) {
   using S = TestType;
   int ok = 0, wrong = 0;
-  for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+  for (std::uint64_t seed = 0; seed < kRelativePoseTrials; ++seed) {
     const TwoViews views =
         make_two_views({.noise = 0.5, .baseline = 0.5, .scene = TwoViewOptions::kFlat}, seed);
     const auto matches = views.as<S>();
@@ -222,7 +223,7 @@ TEMPLATE_TEST_CASE("relative pose: a rotation prior decides between the answers 
     ++ok;
     wrong += angle_deg(t.template cast<double>(), views.t_10) > 6;
   }
-  CHECK(ok >= kTrials / 2);
+  CHECK(ok >= kRelativePoseTrials / 2);
   CHECK(wrong <= 1);
 }
 

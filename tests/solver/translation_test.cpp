@@ -11,7 +11,7 @@
 namespace sslam {
 namespace {
 
-constexpr int kTrials = 60;
+constexpr int kTranslationTrials = 60;
 
 template <Scalar S>
 TranslationEstimate<S> estimate(const TwoViews& views, std::span<std::uint8_t> inliers = {},
@@ -20,15 +20,15 @@ TranslationEstimate<S> estimate(const TwoViews& views, std::span<std::uint8_t> i
   return translation_from_rotation<S>(matches, views.R_10.template cast<S>(), {}, seed, inliers);
 }
 
-struct Score {
+struct TranslationScore {
   int usable = 0;
   double mean_chi2 = 0, worst_deg = 0;
 };
 
 template <Scalar S>
-Score score(const TwoViewOptions& options) {
-  Score score;
-  for (int trial = 0; trial < kTrials; ++trial) {
+TranslationScore score(const TwoViewOptions& options) {
+  TranslationScore score;
+  for (int trial = 0; trial < kTranslationTrials; ++trial) {
     const TwoViews views = make_two_views(options, static_cast<std::uint64_t>(trial));
     const auto answer = estimate<S>(views);
     if (!usable(answer.status)) continue;
@@ -43,7 +43,7 @@ Score score(const TwoViewOptions& options) {
 template <Scalar S>
 int count_status(const TwoViewOptions& options, Status status) {
   int count = 0;
-  for (int trial = 0; trial < kTrials; ++trial)
+  for (int trial = 0; trial < kTranslationTrials; ++trial)
     count += estimate<S>(make_two_views(options, static_cast<std::uint64_t>(trial))).status == status;
   return count;
 }
@@ -52,9 +52,9 @@ int count_status(const TwoViewOptions& options, Status status) {
 
 TEMPLATE_TEST_CASE("translation: the predicted accuracy is reached without mismatches", "", float, double) {
   for (const double baseline : {0.1, 0.3, 1.0}) {
-    const Score s = score<TestType>({.baseline = baseline});
+    const TranslationScore s = score<TestType>({.baseline = baseline});
     CAPTURE(baseline, s.mean_chi2, s.worst_deg);
-    CHECK(s.usable >= kTrials - 2);
+    CHECK(s.usable >= kTranslationTrials - 2);
     CHECK(s.mean_chi2 > 1);  // 2 when the covariance is exact
     CHECK(s.mean_chi2 < 3.5);
   }
@@ -62,9 +62,9 @@ TEMPLATE_TEST_CASE("translation: the predicted accuracy is reached without misma
 
 TEMPLATE_TEST_CASE("translation: half of the matches may be wrong", "", float, double) {
   for (const double mismatches : {0.3, 0.5}) {
-    const Score s = score<TestType>({.mismatches = mismatches, .baseline = 0.3});
+    const TranslationScore s = score<TestType>({.mismatches = mismatches, .baseline = 0.3});
     CAPTURE(mismatches, s.mean_chi2, s.worst_deg);
-    CHECK(s.usable >= kTrials - 2);
+    CHECK(s.usable >= kTranslationTrials - 2);
     CHECK(s.mean_chi2 < 5);
     CHECK(s.worst_deg < 2.5);
   }
@@ -101,7 +101,7 @@ TEMPLATE_TEST_CASE("translation: far points alone are low parallax", "", float, 
     for (const double noise : {0.0, 1.0}) {
       const TwoViewOptions o{.mismatches = mismatches, .noise = noise, .scene = TwoViewOptions::kInfinite};
       CAPTURE(mismatches, noise);
-      CHECK(count_status<TestType>(o, Status::kLowParallax) == kTrials);
+      CHECK(count_status<TestType>(o, Status::kLowParallax) == kTranslationTrials);
     }
 }
 
@@ -114,15 +114,16 @@ TEMPLATE_TEST_CASE("translation: a camera that stands still is low parallax", ""
 
 TEMPLATE_TEST_CASE("translation: points on one epipolar plane are degenerate", "", float, double) {
   CHECK(count_status<TestType>({.noise = 0, .scene = TwoViewOptions::kCollinear}, Status::kDegenerate) ==
-        kTrials);
-  CHECK(count_status<TestType>({.scene = TwoViewOptions::kCollinear}, Status::kDegenerate) >= kTrials - 1);
+        kTranslationTrials);
+  CHECK(count_status<TestType>({.scene = TwoViewOptions::kCollinear}, Status::kDegenerate) >=
+        kTranslationTrials - 1);
   const TwoViewOptions o{.mismatches = 0.3, .scene = TwoViewOptions::kCollinear};
   CHECK(count_status<TestType>(o, Status::kOk) <= 1);
 }
 
 TEMPLATE_TEST_CASE("translation: unrelated matches have no consensus", "", float, double) {
   CHECK(count_status<TestType>({.mismatches = 1}, Status::kOk) == 0);
-  CHECK(count_status<TestType>({.mismatches = 1}, Status::kNoConsensus) >= kTrials - 6);
+  CHECK(count_status<TestType>({.mismatches = 1}, Status::kNoConsensus) >= kTranslationTrials - 6);
 }
 
 TEMPLATE_TEST_CASE("translation: few distant points among near ones do not count alike", "", float, double) {

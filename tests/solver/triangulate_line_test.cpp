@@ -14,7 +14,7 @@ namespace sslam {
 namespace {
 
 // A segment seen in part by cameras that move sideways; each view draws its own noise and its own ends.
-struct Scene {
+struct LineScene {
   Vec3<double> a, b;
   std::vector<LineView<double>> views;
 
@@ -32,7 +32,7 @@ struct Scene {
   }
 };
 
-struct SceneOptions {
+struct LineSceneOptions {
   int cameras = 3;
   double step = 0.5;      // metres between cameras, at a distance of about 4
   double noise = 1;       // pixels at a focal length of 500
@@ -41,11 +41,11 @@ struct SceneOptions {
   bool epipolar = false;  // line and motion in one plane
 };
 
-Scene make_scene(const SceneOptions& o, std::uint64_t seed) {
+LineScene make_scene(const LineSceneOptions& o, std::uint64_t seed) {
   Random random(seed);
   const auto spread = [&](double limit) { return random.uniform(-limit, limit); };
   const Vec3<double> origin = o.far * Vec3<double>(1, -0.5, 0.7);
-  Scene scene;
+  LineScene scene;
   scene.a = {spread(1), spread(1), 4 + spread(1)};
   scene.b = scene.a + (o.upright ? Vec3<double>(0, 1, 0) : Vec3<double>(spread(0.6), 1, spread(0.6)));
   if (o.epipolar) {
@@ -79,16 +79,16 @@ Scene make_scene(const SceneOptions& o, std::uint64_t seed) {
 
 // Mean over the scenes of the squared error at the middle, across the line, over its covariance: 2 when
 // exact.
-struct Score {
+struct LineScore {
   int ok = 0, low_parallax = 0;
   double chi2 = 0;
 };
 
 template <Scalar S>
-Score score(const SceneOptions& o, bool along) {
-  Score score;
+LineScore score(const LineSceneOptions& o, bool along) {
+  LineScore score;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const Scene scene = make_scene(o, seed);
+    const LineScene scene = make_scene(o, seed);
     const auto views = scene.as<S>();
     const auto answer =
         along ? triangulate_line_along<S>(views, Vec3<S>::UnitY()) : triangulate_line<S>(views);
@@ -115,7 +115,7 @@ TEMPLATE_TEST_CASE("line: exact views give the exact line", "", float, double) {
   const double tolerance = std::is_same_v<S, float> ? 2e-3 : 1e-8;
   for (const int cameras : {2, 3, 6})
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const Scene scene = make_scene({.cameras = cameras, .noise = 0}, seed);
+      const LineScene scene = make_scene({.cameras = cameras, .noise = 0}, seed);
       const auto views = scene.as<S>();
       const auto answer = triangulate_line<S>(views);
       REQUIRE(usable(answer.status));
@@ -129,7 +129,7 @@ TEMPLATE_TEST_CASE("line: exact views give the exact line", "", float, double) {
 TEMPLATE_TEST_CASE("line: the error is as large as its covariance says", "", float, double) {
   for (const int cameras : {2, 3, 6})
     for (const double far : {0.0, 30.0}) {
-      const Score s = score<TestType>({.cameras = cameras, .far = far}, false);
+      const LineScore s = score<TestType>({.cameras = cameras, .far = far}, false);
       CAPTURE(cameras, far, s.ok, s.chi2);
       CHECK(s.ok >= 150);
       CHECK(s.chi2 > 1.4);
@@ -138,8 +138,8 @@ TEMPLATE_TEST_CASE("line: the error is as large as its covariance says", "", flo
 }
 
 TEMPLATE_TEST_CASE("line: a known direction needs less parallax", "", float, double) {
-  const SceneOptions close{.cameras = 2, .step = 0.12, .upright = true};
-  const Score open = score<TestType>(close, false), held = score<TestType>(close, true);
+  const LineSceneOptions close{.cameras = 2, .step = 0.12, .upright = true};
+  const LineScore open = score<TestType>(close, false), held = score<TestType>(close, true);
   CAPTURE(open.ok, held.ok, held.chi2);
   CHECK(open.ok <= 30);
   CHECK(held.ok >= 180);
@@ -158,7 +158,7 @@ TEMPLATE_TEST_CASE("line: a segment that does not follow the known direction is 
 }
 
 TEMPLATE_TEST_CASE("line: in an epipolar plane it is low parallax", "", float, double) {
-  const Score exact = score<TestType>({.noise = 0, .epipolar = true}, false);
+  const LineScore exact = score<TestType>({.noise = 0, .epipolar = true}, false);
   CHECK(exact.ok == 0);
   CHECK(exact.low_parallax >= 195);
   CHECK(score<TestType>({.epipolar = true}, false).ok <= 2);

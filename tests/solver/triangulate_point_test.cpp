@@ -14,7 +14,7 @@ namespace {
 
 // A point seen by cameras that move sideways and turn a little. far: distance of the whole scene from the
 // origin.
-struct Scene {
+struct PointScene {
   Vec3<double> point;
   std::vector<PointView<double>> views;
 
@@ -27,9 +27,9 @@ struct Scene {
   }
 };
 
-Scene make_scene(int cameras, double step, double noise_px, std::uint64_t seed, double far = 0) {
+PointScene make_scene(int cameras, double step, double noise_px, std::uint64_t seed, double far = 0) {
   Random random(seed);
-  Scene scene;
+  PointScene scene;
   const Vec3<double> origin = far * Vec3<double>(1, -0.5, 0.7);
   scene.point =
       origin + Vec3<double>{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(2.0, 6.0)};
@@ -52,7 +52,7 @@ Scene make_scene(int cameras, double step, double noise_px, std::uint64_t seed, 
 TEMPLATE_TEST_CASE("point: exact views give the exact point", "", float, double) {
   using S = TestType;
   for (const int cameras : {2, 3, 8}) {
-    const Scene scene = make_scene(cameras, 0.3, 0, 5);
+    const PointScene scene = make_scene(cameras, 0.3, 0, 5);
     const auto views = scene.as<S>();
     const auto answer = triangulate_point<S>(views);
     REQUIRE(usable(answer.status));
@@ -69,7 +69,7 @@ TEMPLATE_TEST_CASE("point: the error is as large as its covariance says", "", fl
       double chi2 = 0;
       int ok = 0;
       for (std::uint64_t seed = 0; seed < 300; ++seed) {
-        const Scene scene = make_scene(cameras, 0.3, 1, seed, far);
+        const PointScene scene = make_scene(cameras, 0.3, 1, seed, far);
         const auto views = scene.as<S>();
         PointTriangulationOptions<S> options;
         options.max_error = 5;
@@ -88,7 +88,7 @@ TEMPLATE_TEST_CASE("point: the error is as large as its covariance says", "", fl
 
 TEMPLATE_TEST_CASE("point: two views agree with the general form", "", float, double) {
   using S = TestType;
-  const Scene scene = make_scene(2, 0.4, 1, 7);
+  const PointScene scene = make_scene(2, 0.4, 1, 7);
   const auto views = scene.as<S>();
   const SE3<S> step =
       (scene.views[1].cam_from_world * scene.views[0].cam_from_world.inverse()).template cast<S>();

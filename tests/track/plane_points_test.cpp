@@ -11,7 +11,7 @@ namespace {
 using namespace sslam;
 using namespace sslam::testing;
 
-constexpr double kDepth = 5;
+constexpr double kMedianDepth = 5;
 constexpr KeyframeId kNewest = 3;
 
 // Keyframes that stand nearly still before a wall; of the points on it, one in four has a landmark.
@@ -46,7 +46,7 @@ TEST_CASE("Rays that meet a known plane give new points where landmarks are few"
   for (std::size_t i = 0; i < map.points.size(); ++i) old[i] = map.points[i].alive;
   PlanePoints<double> points;
   points.few_landmarks = 100000;
-  const int added = points.create(map, kNewest, kDepth);
+  const int added = points.create(map, kNewest, kMedianDepth);
   CHECK(added > 50);
   CHECK(alive(map) == before + static_cast<std::size_t>(added));
   int right = 0;
@@ -66,13 +66,13 @@ TEST_CASE("Planes give no points where landmarks are many, nor far from what lie
   MapScene scene({.points = 1200, .lines = 0}, sweep(4, 0.01));
   Map<double> map = before_wall(scene);
   PlanePoints<double> points;
-  CHECK(points.create(map, kNewest, kDepth) == 0);  // switched off
+  CHECK(points.create(map, kNewest, kMedianDepth) == 0);  // switched off
   points.few_landmarks = 10;
-  CHECK(points.create(map, kNewest, kDepth) == 0);  // it sees more
+  CHECK(points.create(map, kNewest, kMedianDepth) == 0);  // it sees more
   points.few_landmarks = 100000;
   for (auto& p : map.points)
     if (p.alive && p.plane != kNone && (p.position.head<2>() - Vec2<double>(0, 0)).norm() > 0.3)
       p.plane = kNone;  // what is left of the walls is a patch
   points.reach = 0;
-  CHECK(points.create(map, kNewest, kDepth) < 10);
+  CHECK(points.create(map, kNewest, kMedianDepth) < 10);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,19 +31,32 @@ class Atlas {
     for (World<S>& world : worlds_) world.met.reset();
   }
 
-  [[nodiscard]] World<S> take(std::size_t index) {
-    World<S> world = std::move(worlds_[index]);
-    worlds_.erase(worlds_.begin() + static_cast<std::ptrdiff_t>(index));
-    return world;
+  // `world` is one of worlds().
+  [[nodiscard]] World<S> take(World<S>& world) {
+    World<S> taken = std::move(world);
+    worlds_.erase(worlds_.begin() + (&world - worlds_.data()));
+    return taken;
   }
 
-  // Each in its turn; worlds().size() where there is none.
-  [[nodiscard]] std::size_t next() noexcept { return worlds_.empty() ? 0 : ++turn_ % worlds_.size(); }
+  // Each in its turn; null where there is none.
+  [[nodiscard]] World<S>* next() noexcept {
+    return worlds_.empty() ? nullptr : &worlds_[++turn_ % worlds_.size()];
+  }
 
-  // Of what is aside, that in which most frames were tracked.
-  [[nodiscard]] std::size_t largest() const noexcept {
-    return static_cast<std::size_t>(std::max_element(worlds_.begin(), worlds_.end(), smaller) -
-                                    worlds_.begin());
+  // Of what is aside, that in which most frames were tracked; null where there is none.
+  [[nodiscard]] World<S>* largest() noexcept {
+    return worlds_.empty() ? nullptr : &*std::max_element(worlds_.begin(), worlds_.end(), smaller);
+  }
+
+  // The world of which the keyframe of `map` shows a place, as an earlier one did; null where there is none.
+  template <class Detection>
+  [[nodiscard]] World<S>* met_by(const Map<S>& map, KeyframeId id, Detection& detection) {
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    const auto met = std::find_if(worlds_.begin(), worlds_.end(), [&](World<S>& world) {
+      const std::optional<Loop<S>> place = detection.find(map, id, world.map);
+      return place && detection.check.confirmed(keyframe, world.map, *place, world.met);
+    });
+    return met == worlds_.end() ? nullptr : &*met;
   }
 
   [[nodiscard]] static bool smaller(const World<S>& a, const World<S>& b) noexcept {

@@ -76,6 +76,7 @@ concept LoopStage = requires(T stage, Map<S>& map, const Loop<S>& loop, std::opt
   { stage.detection.find(std::as_const(map), KeyframeId{}, map) } -> std::same_as<std::optional<Loop<S>>>;
   { stage.detection.check.confirmed(Keyframe<S>(), map, loop, met) } -> std::same_as<bool>;
   { stage.weld(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
+  stage.forget();  // the map is another one
 };
 
 // Decides when and where mapping and loop closing happen.

@@ -66,7 +66,7 @@ class LoopClosing {
     if (drifted && share_in_place(map, keyframe, *loop, check.reach) < check.min_share &&
         !check.confirmed(keyframe, map, *loop, met_))
       return {};
-    met_.reset();
+    forget();
     if (drifted && !bend(map, id, *loop)) return {};
     join(map, id, *loop);
     if (!drifted) {
@@ -84,8 +84,12 @@ class LoopClosing {
     joint.shift = append(map, std::move(other), joint.moved, detection.max_turn);
     join(map, id + joint.shift.keyframes, loop);
     adjustment.optimise_all(map);
+    forget();
     return joint;
   }
+
+  // The map is another one.
+  void forget() noexcept { met_.reset(); }
 
  private:
   // Of the landmarks of the place that the keyframe sees, how many lie within `reach`, in the feature's
@@ -163,6 +167,7 @@ struct NoLoopClosing {
 
   LoopAnswer<S> close(Map<S>&, KeyframeId) { return {}; }
   MapJoint<S> weld(Map<S>&, Map<S>, KeyframeId, const Loop<S>&) { return {}; }
+  void forget() noexcept {}
 };
 
 }  // namespace sslam

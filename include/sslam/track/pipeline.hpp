@@ -3,17 +3,11 @@
 // `pipeline.rotation.options.cone = ...` and replacing one is a template argument.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "sslam/track/atlas.hpp"
 #include "sslam/track/backfill.hpp"
-#include "sslam/track/concepts.hpp"
-#include "sslam/track/frame_history.hpp"
-#include "sslam/track/motion_model.hpp"
-#include "sslam/track/relocalisation.hpp"
-#include "sslam/track/stage_timer.hpp"
+#include "sslam/track/pose_tracking.hpp"
 #include "sslam/track/upkeep.hpp"
 
 namespace sslam {
@@ -22,22 +16,19 @@ template <Scalar S, RotationStage<S> Rotation, InitialisationStage<S> Initialisa
           TranslationStage<S> Translation, FallbackStage<S> Fallback, RefinementStage<S> Refinement,
           KeyframeStage<S> Keyframes, MappingStage<S> Mapping, LoopStage<S> Loops = NoLoopClosing<S>,
           StageTimer Timer = NoTimer, UpkeepStage<S, Mapping, Loops> Upkeep = ImmediateUpkeep<S>>
-class Pipeline {
+class Pipeline : public PoseTracking<S, Rotation, Translation, Fallback, Refinement, Timer> {
+  using Tracking = PoseTracking<S, Rotation, Translation, Fallback, Refinement, Timer>;
+
  public:
-  Rotation rotation;
+  using Tracking::fallback, Tracking::refinement, Tracking::rotation, Tracking::translation;
+  using Tracking::motion, Tracking::relocalisation, Tracking::timer;
   Initialisation initialisation;
-  Translation translation;
-  Fallback fallback;
-  Refinement refinement;
   Keyframes keyframes;
   Mapping mapping;
   Loops loops;
-  ConstantVelocity<S> motion;
   Backfill<S> backfill;
   MapTrial<S> trial;
-  Relocalisation<S> relocalisation;
   Atlas<S> atlas;
-  Timer timer;
   Upkeep upkeep;  // after the stages that it may still be at work with when the pipeline ends
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
@@ -72,9 +63,8 @@ class Pipeline {
   // frame, if there is one, goes on from there.
   bool finish() {
     const bool loop_closed = follow_map(upkeep.finish(world_.map));
-    const std::size_t largest = atlas.largest();
-    if (largest < atlas.worlds().size() && Atlas<S>::smaller(world_, atlas.worlds()[largest]))
-      change_places(atlas.worlds()[largest]);
+    World<S>* largest = atlas.largest();
+    if (largest != nullptr && Atlas<S>::smaller(world_, *largest)) change_places(*largest);
     return loop_closed;
   }
 
@@ -89,7 +79,7 @@ class Pipeline {
     TrackedFrame<S>& frame = frames_.current();
     result.state = State::kInitialising;
     const SO3<S> predicted = frames_.last().cam_from_world.rotation;
-    const RotationAnswer<S> answer = rotate(predicted, result);
+    const RotationAnswer<S> answer = Tracking::rotate(predicted, world_.map, frame, result);
     const SO3<S>& rotation_now = answer.trusted ? frame.manhattan->cam_from_world : predicted;
     frame.cam_from_world = {rotation_now, Vec3<S>::Zero()};
     result.reason = initialisation.start(frame, world_.map);
@@ -112,12 +102,11 @@ class Pipeline {
   }
 
   void follow(TrackResult<S>& result) {
-    recent_.gather(frames_.last(), frames_.before_last());
     const bool lost = trial.lost();
     PoseEstimate<S> estimate;
-    if (!lost || motion.reaches(result.stamp)) estimate = track_pose(result);
+    if (!lost || motion.reaches(result.stamp)) estimate = Tracking::track_pose(world_, frames_, result);
     const bool tracked = estimate.ok();
-    if (!tracked && lost) estimate = relocalise(result);
+    if (!tracked && lost) estimate = Tracking::recognise(world_, rotation, trial, frames_.current(), result);
     if (estimate.ok()) return settle(estimate, tracked, result);
     if (!lost || !revisit(result)) lose(result, estimate.reason);
   }
@@ -134,6 +123,7 @@ class Pipeline {
     trial.end_loss();
     if (!tracked) {
       motion.stop();
+      result.state = State::kFallback;
       result.reason = Reason::kRelocalised;
     }
     result.keyframe = world_.cursor.advance(map, frame, estimate, keyframes, [&](S depth) {
@@ -163,21 +153,11 @@ class Pipeline {
 
   // The frame has just become a keyframe; it may show a place of a world that was left.
   void meet_known(TrackResult<S>& result) {
-    for (std::size_t i = 0; i < atlas.worlds().size(); ++i) {
-      World<S>& known = atlas.worlds()[i];
-      std::optional<Loop<S>> place = find_in(known);
-      if (!place || !detection_.check.confirmed(reference(), known.map, *place, known.met)) continue;
-      if (const MapChange<S>* change = upkeep.finish(world_.map)) {
-        follow_map(change);  // the maps are joined as they are now
-        place = find_in(known);
-        if (!place) continue;
-      }
-      return join(atlas.take(i), *place, result);
-    }
-  }
-
-  [[nodiscard]] std::optional<Loop<S>> find_in(World<S>& known) {
-    return detection_.find(world_.map, world_.cursor.reference(), known.map);
+    World<S>* known = atlas.met_by(world_.map, world_.cursor.reference(), detection_);
+    if (known == nullptr) return;
+    follow_map(upkeep.finish(world_.map));  // the maps are joined as they are now
+    if (const auto place = detection_.find(world_.map, world_.cursor.reference(), known->map))
+      join(atlas.take(*known), *place, result);
   }
 
   [[nodiscard]] const Keyframe<S>& reference() const {
@@ -211,105 +191,22 @@ class Pipeline {
     return change->loop_closed;
   }
 
-  RotationAnswer<S> rotate(const SO3<S>& predicted, TrackResult<S>& result) {
-    const RotationAnswer<S> answer = rotation.rotate(frames_.current(), predicted, !world_.map.empty());
-    world_.map.world_from_manhattan = rotation.world_from_manhattan();
-    result.axes_seen = answer.axes_seen;
-    timer.end(Stage::kRotation);
-    return answer;
-  }
-
-  // The decoupled way first; where it does not hold, six degrees of freedom.
-  PoseEstimate<S> track_pose(TrackResult<S>& result) {
-    TrackedFrame<S>& frame = frames_.current();
-    const SE3<S> predicted = motion.predict(result.stamp);
-    const RotationAnswer<S> answer = rotate(predicted.rotation, result);
-    std::optional<RotationPrior<S>> prior;
-    if (frame.manhattan)
-      prior = RotationPrior<S>{frame.manhattan->cam_from_world, frame.manhattan->covariance.inverse()};
-    result.reason = Reason::kNoManhattanFrame;
-    if (answer.trusted) {
-      const Vec3<S> centre = predicted.inverse().translation;
-      const SO3<S>& turned = frame.manhattan->cam_from_world;
-      frame.cam_from_world = {turned, -(turned * centre)};
-      PoseEstimate<S> estimate = translation.translate(world_.map, recent_, frame);
-      timer.end(Stage::kTranslation);
-      if (estimate.ok()) {
-        estimate = refinement.refine(world_.map, &*prior, frame);
-        timer.end(Stage::kRefinement);
-        if (estimate.ok()) {
-          result.state = State::kManhattan;
-          result.reason = Reason::kFine;
-          return estimate;
-        }
-      }
-      prior.reset();  // it has just been found wanting
-      result.reason = Reason::kManhattanRejected;
-    }
-    result.state = State::kFallback;
-    return track_features(predicted, prior ? &*prior : nullptr);
-  }
-
-  PoseEstimate<S> track_features(const SE3<S>& predicted, const RotationPrior<S>* prior) {
-    TrackedFrame<S>& frame = frames_.current();
-    frame.cam_from_world = predicted;
-    PoseEstimate<S> estimate = fallback.track(world_.map, recent_, prior, frame);
-    if (!estimate.ok()) {
-      frame.cam_from_world = frames_.last().cam_from_world;
-      estimate = fallback.track_keyframe(world_.map, world_.cursor.reference(), prior, frame);
-    }
-    timer.end(Stage::kFallback);
-    if (!estimate.ok()) return estimate;
-    estimate = refinement.refine(world_.map, prior, frame);
-    timer.end(Stage::kRefinement);
-    return estimate;
-  }
-
-  PoseEstimate<S> relocalise(TrackResult<S>& result) {
-    result.state = State::kFallback;
-    KeyframeId place = world_.cursor.reference();
-    const auto agrees = [&] { return stands_square(result); };
-    const PoseEstimate<S> estimate =
-        relocalisation.find(world_.map, fallback, refinement, agrees, frames_.current(), place);
-    world_.cursor.refer_to(place);
-    timer.end(Stage::kFallback);
-    return estimate;
-  }
-
-  // Whether the pose that a lost frame was given agrees with the Manhattan frame, where that is seen: a place
-  // that only looks the same is rarely seen from a direction that fits.
-  bool stands_square(TrackResult<S>& result) {
-    timer.end(Stage::kFallback);
-    const SO3<S>& found = frames_.current().cam_from_world.rotation;
-    rotate(found, result);
-    return !trial.contradicts(frames_.current());
-  }
-
   // The camera may be back in a world that was left; one of them is asked for each frame.
   bool revisit(TrackResult<S>& result) {
-    const std::size_t index = atlas.next();
-    if (index >= atlas.worlds().size()) return false;
-    World<S>& known = atlas.worlds()[index];
+    World<S>* known = atlas.next();
+    if (known == nullptr) return false;
     TrackedFrame<S>& frame = frames_.current();
-    KeyframeId place = known.cursor.reference();
-    const auto agrees = [&] {
-      Rotation elsewhere = rotation;
-      elsewhere.reset(known.map.world_from_manhattan);
-      result.axes_seen = elsewhere.rotate(frame, frame.cam_from_world.rotation, true).axes_seen;
-      return !trial.contradicts(frame);
-    };
-    const PoseEstimate<S> estimate =
-        relocalisation.find(known.map, fallback, refinement, agrees, frame, place);
-    timer.end(Stage::kFallback);
+    Rotation elsewhere = rotation;
+    elsewhere.reset(known->map.world_from_manhattan);
+    const PoseEstimate<S> estimate = Tracking::recognise(*known, elsewhere, trial, frame, result);
     if (!estimate.ok()) {
       frame.forget_matches();
       frame.forget_manhattan();
       return false;
     }
-    change_places(known);
-    if (trial.young(known.map)) (void)atlas.take(index);
-    world_.cursor.move_to(place);
-    result.state = State::kFallback;
+    change_places(*known);
+    if (trial.young(known->map)) (void)atlas.take(*known);
+    world_.cursor.move_to(world_.cursor.reference());
     settle(estimate, false, result);
     return true;
   }
@@ -338,13 +235,9 @@ class Pipeline {
     upkeep.forget();
     world_ = {};
     world_.map = std::move(map);
-    rotation.reset(world_.map.world_from_manhattan);
-    initialisation.reset();
-    motion.stop();
     trial.begin_again();
     frames_.current().forget_manhattan();
-    backfill.leave_world();
-    atlas.forget_meetings();
+    enter_world();
   }
 
   // What mapping elsewhere has still to say comes in, and nothing after that.
@@ -360,10 +253,16 @@ class Pipeline {
     leave_world();
     std::swap(world_, other);
     trial = world_.trial;
+    frames_.change_world();
+    enter_world();
+  }
+
+  // The world is another one: what the stages remember was of that before it.
+  void enter_world() {
     rotation.reset(world_.map.world_from_manhattan);
     initialisation.reset();
+    loops.forget();
     motion.stop();
-    frames_.change_world();
     backfill.leave_world();
     atlas.forget_meetings();
   }
@@ -372,7 +271,6 @@ class Pipeline {
   int last_number_ = 0;
   decltype(Loops::detection) detection_;  // for worlds that were left; `loops` may be at work elsewhere
   FrameHistory<S> frames_;
-  RecentLandmarks<S> recent_;
 };
 
 }  // namespace sslam

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a frame gets its pose in a map: first the rotation and with it the translation, where that does not
+// hold all six degrees of freedom, and after a loss those of a place that looks like it.
+#pragma once
+
+#include <optional>
+
+#include "sslam/track/concepts.hpp"
+#include "sslam/track/frame_history.hpp"
+#include "sslam/track/motion_model.hpp"
+#include "sslam/track/relocalisation.hpp"
+#include "sslam/track/stage_timer.hpp"
+#include "sslam/track/world.hpp"
+
+namespace sslam {
+
+// The part of the pipeline that changes nothing of the map but its Manhattan frames and its landmarks'
+// counts.
+template <Scalar S, RotationStage<S> Rotation, TranslationStage<S> Translation, FallbackStage<S> Fallback,
+          RefinementStage<S> Refinement, StageTimer Timer>
+class PoseTracking {
+ public:
+  Rotation rotation;
+  Translation translation;
+  Fallback fallback;
+  Refinement refinement;
+  ConstantVelocity<S> motion;
+  Relocalisation<S> relocalisation;
+  Timer timer;
+
+ protected:
+  RotationAnswer<S> rotate(const SO3<S>& predicted, Map<S>& map, TrackedFrame<S>& frame,
+                           TrackResult<S>& result) {
+    return rotate_by(rotation, predicted, map, frame, result);
+  }
+
+  // The current frame, from those before it.
+  PoseEstimate<S> track_pose(World<S>& world, FrameHistory<S>& frames, TrackResult<S>& result) {
+    recent_.gather(frames.last(), frames.before_last());
+    TrackedFrame<S>& frame = frames.current();
+    const SE3<S> predicted = motion.predict(result.stamp);
+    const RotationAnswer<S> answer = rotate(predicted.rotation, world.map, frame, result);
+    std::optional<RotationPrior<S>> prior;
+    if (frame.manhattan)
+      prior = RotationPrior<S>{frame.manhattan->cam_from_world, frame.manhattan->covariance.inverse()};
+    result.reason = Reason::kNoManhattanFrame;
+    if (answer.trusted) {
+      const PoseEstimate<S> estimate = track_decoupled(predicted, *prior, world.map, frame);
+      if (estimate.ok()) {
+        result.state = State::kManhattan;
+        result.reason = Reason::kFine;
+        return estimate;
+      }
+      prior.reset();  // it has just been found wanting
+      result.reason = Reason::kManhattanRejected;
+    }
+    result.state = State::kFallback;
+    frame.cam_from_world = predicted;
+    return track_features(prior ? &*prior : nullptr, world, frames);
+  }
+
+  // The frame's place in a world, if it is found there; the world's cursor then refers to it. Where the
+  // Manhattan frame is seen, the pose must agree with it: a place that only looks the same is rarely seen
+  // from a direction that fits.
+  PoseEstimate<S> recognise(World<S>& world, Rotation& rotation_there, const MapTrial<S>& trial,
+                            TrackedFrame<S>& frame, TrackResult<S>& result) {
+    KeyframeId place = world.cursor.reference();
+    const auto agrees = [&] {
+      timer.end(Stage::kFallback);
+      rotate_by(rotation_there, frame.cam_from_world.rotation, world.map, frame, result);
+      return !trial.contradicts(frame);
+    };
+    const PoseEstimate<S> estimate =
+        relocalisation.find(world.map, fallback, refinement, agrees, frame, place);
+    world.cursor.refer_to(place);
+    timer.end(Stage::kFallback);
+    return estimate;
+  }
+
+ private:
+  RotationAnswer<S> rotate_by(Rotation& stage, const SO3<S>& predicted, Map<S>& map, TrackedFrame<S>& frame,
+                              TrackResult<S>& result) {
+    const RotationAnswer<S> answer = stage.rotate(frame, predicted, !map.empty());
+    map.world_from_manhattan = stage.world_from_manhattan();
+    result.axes_seen = answer.axes_seen;
+    timer.end(Stage::kRotation);
+    return answer;
+  }
+
+  // The camera where motion leads, turned as the Manhattan frame says; the translation is solved for.
+  PoseEstimate<S> track_decoupled(const SE3<S>& predicted, const RotationPrior<S>& prior, Map<S>& map,
+                                  TrackedFrame<S>& frame) {
+    const Vec3<S> centre = predicted.inverse().translation;
+    const SO3<S>& turned = frame.manhattan->cam_from_world;
+    frame.cam_from_world = {turned, -(turned * centre)};
+    const PoseEstimate<S> estimate = translation.translate(map, recent_, frame);
+    timer.end(Stage::kTranslation);
+    return estimate.ok() ? refine(map, &prior, frame) : estimate;
+  }
+
+  PoseEstimate<S> track_features(const RotationPrior<S>* prior, World<S>& world, FrameHistory<S>& frames) {
+    TrackedFrame<S>& frame = frames.current();
+    PoseEstimate<S> estimate = fallback.track(world.map, recent_, prior, frame);
+    if (!estimate.ok()) {
+      frame.cam_from_world = frames.last().cam_from_world;
+      estimate = fallback.track_keyframe(world.map, world.cursor.reference(), prior, frame);
+    }
+    timer.end(Stage::kFallback);
+    return estimate.ok() ? refine(world.map, prior, frame) : estimate;
+  }
+
+  PoseEstimate<S> refine(Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+    const PoseEstimate<S> estimate = refinement.refine(map, prior, frame);
+    timer.end(Stage::kRefinement);
+    return estimate;
+  }
+
+  RecentLandmarks<S> recent_;
+};
+
+}  // namespace sslam
