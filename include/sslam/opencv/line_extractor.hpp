@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Line segments: LSD over one or two octaves, joined where broken, fitted to the full image, with LBD
-// descriptors.
+// Lines: segments of one or two octaves, joined where broken, fitted to the full image, with LBD descriptors.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +12,15 @@
 #include <vector>
 
 #include "sslam/map/frame.hpp"
+#include "sslam/opencv/segment_detector.hpp"
 #include "sslam/opencv/segment_merger.hpp"
 #include "sslam/opencv/segment_refiner.hpp"
 
 namespace sslam {
 
 struct LineOptions {
-  int octaves = 1;                 // 1: half resolution; 2: full resolution as well
-  double gradient_error = 1;       // LSD's bound on it, grey levels: lower finds fainter edges
+  int octaves = 1;  // 1: half resolution; 2: 0.8 of the full resolution as well
+  SegmentDetectorOptions detector;
   double min_length_ratio = 0.04;  // of a segment, over the longer side of the image
   int border = 4;                  // segments that run along the border within this many pixels are artefacts
   int max_lines = 250;             // longest kept
@@ -40,9 +40,12 @@ class LineExtractor {
     constexpr int kMinSide = 32;
     if (grey.empty() || grey.type() != CV_8UC1 || std::min(grey.cols, grey.rows) < kMinSide) return;
     cv::resize(grey, half_, {(grey.cols + 1) / 2, (grey.rows + 1) / 2}, 0, 0, cv::INTER_AREA);
-    prepare_detectors();
-    detect(half_, *lsd_half_, grey.size());
-    if (options.octaves > 1) detect(grey, *lsd_full_, grey.size());
+    detector_.options = options.detector;
+    detect(half_, grey.size());
+    if (options.octaves > 1) {
+      cv::resize(grey, fine_, {}, 0.8, 0.8, cv::INTER_AREA);
+      detect(fine_, grey.size());
+    }
     const double min_length = options.min_length_ratio * std::max(grey.cols, grey.rows);
     // The first fit brings the pieces of one edge onto one line, so that the second round can join the rest.
     merger_.merge(segments_, options.merge);
@@ -60,13 +63,6 @@ class LineExtractor {
   }
 
  private:
-  void prepare_detectors() {
-    if (gradient_error_ == options.gradient_error) return;
-    gradient_error_ = options.gradient_error;
-    lsd_half_ = cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 1.0, 0.6, gradient_error_);
-    lsd_full_ = cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 0.8, 0.6, gradient_error_);
-  }
-
   // Replaces segments_ by what their fit to the image leaves of them; refined_ says the same with
   // uncertainty.
   void refine(const cv::Mat& grey, double min_length, double reach) {
@@ -85,15 +81,17 @@ class LineExtractor {
     for (const RefinedSegment& refined : refined_) segments_.push_back(refined.segment);
   }
 
-  void detect(const cv::Mat& image, cv::LineSegmentDetector& lsd, cv::Size full) {
-    lsd.detect(image, found_);
-    const double sx = static_cast<double>(full.width) / image.cols,
-                 sy = static_cast<double>(full.height) / image.rows;
-    const auto to_full = [&](float x, float y) {
-      return Vec2<double>((x + 0.5) * sx - 0.5, (y + 0.5) * sy - 0.5);
+  // Adds the segments of the image, which is a smaller one of the size `full`, in pixels of that.
+  void detect(const cv::Mat& image, cv::Size full) {
+    found_.clear();
+    detector_.detect(image, found_);
+    const Vec2<double> scale(static_cast<double>(full.width) / image.cols,
+                             static_cast<double>(full.height) / image.rows);
+    const auto to_full = [&](const Vec2<double>& p) -> Vec2<double> {
+      return (p.array() + 0.5) * scale.array() - 0.5;
     };
-    for (const cv::Vec4f& s : found_) {
-      const Segment2<double> segment{to_full(s[0], s[1]), to_full(s[2], s[3])};
+    for (const Segment2<double>& s : found_) {
+      const Segment2<double> segment{to_full(s.start), to_full(s.end)};
       if (segment.length() > 4) segments_.push_back(segment);
     }
   }
@@ -145,12 +143,10 @@ class LineExtractor {
     return cv::line_descriptor::BinaryDescriptor::createBinaryDescriptor(params);
   }
 
-  double gradient_error_ = -1;  // of the detectors below
-  cv::Ptr<cv::LineSegmentDetector> lsd_half_, lsd_full_;
+  SegmentDetector detector_;
   cv::Ptr<cv::line_descriptor::BinaryDescriptor> lbd_ = make_lbd();
-  cv::Mat half_, descriptors_;
-  std::vector<cv::Vec4f> found_;
-  std::vector<Segment2<double>> segments_;
+  cv::Mat half_, fine_, descriptors_;
+  std::vector<Segment2<double>> found_, segments_;
   std::vector<RefinedSegment> refined_;
   SegmentMerger merger_;
   std::vector<cv::line_descriptor::KeyLine> keylines_;

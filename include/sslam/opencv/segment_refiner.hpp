@@ -28,8 +28,8 @@ struct RefinedSegment {
 
 class SegmentRefiner {
  public:
-  // `image` is 8 bit grey. The edge must rise towards the left hand of start -> end (x right, y down), which
-  // is how LSD orients its segments.
+  // `image` is 8 bit grey. The edge must rise towards the left hand of start -> end (x right, y down), as
+  // the detector's segments do.
   [[nodiscard]] static RefinedSegment refine(const cv::Mat& image, const Segment2<double>& rough,
                                              const SegmentRefineOptions& options) noexcept {
     RefinedSegment refined{rough, 1, false};
