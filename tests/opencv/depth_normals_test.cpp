@@ -13,7 +13,7 @@ using namespace sslam;
 
 namespace {
 
-Camera<double> camera() {
+Camera<double> depth_camera() {
   Camera<double> c;
   c.pinhole = {535.4, 539.2, 320.1, 247.6};
   c.width = 640;
@@ -78,8 +78,8 @@ NormalField fill(const Camera<double>& c, const cv::Mat& depth) {
 TEST_CASE("normals of a noisy plane are good to a degree") {
   const double distance = GENERATE(0.8, 1.5, 2.5);
   const Plane plane{Vec3<double>(0.5, -0.3, -1).normalized(), distance};
-  const NormalField field = fill(camera(), sense(
-                                               camera(), [&](int, int) { return &plane; }, 0.1));
+  const NormalField field = fill(depth_camera(), sense(
+                                                     depth_camera(), [&](int, int) { return &plane; }, 0.1));
   CHECK(field.size() > 2000);
   CHECK(median_error_deg(field, plane.normal) < 1);
   for (std::size_t i = 0; i < field.size(); ++i) {
@@ -91,9 +91,9 @@ TEST_CASE("normals of a noisy plane are good to a degree") {
 TEST_CASE("no normal bridges a step in depth") {
   const Plane near{Vec3<double>(0.2, 0, -1).normalized(), 1.5},
       far{Vec3<double>(-0.3, 0.1, -1).normalized(), 2.5};
-  const NormalField field =
-      fill(camera(), sense(
-                         camera(), [&](int u, int v) { return u + v / 3 < 380 ? &near : &far; }, 0.1));
+  const NormalField field = fill(
+      depth_camera(), sense(
+                          depth_camera(), [&](int u, int v) { return u + v / 3 < 380 ? &near : &far; }, 0.1));
   std::size_t wrong = 0, of_near = 0, of_far = 0;
   for (std::size_t i = 0; i < field.size(); ++i) {
     const double a = angle_deg(field, i, near.normal), b = angle_deg(field, i, far.normal);
@@ -108,10 +108,10 @@ TEST_CASE("no normal bridges a step in depth") {
 
 TEST_CASE("holes cost only what they cover") {
   const Plane plane{Vec3<double>(-0.3, 0.4, -1).normalized(), 1.5};
-  const NormalField field =
-      fill(camera(),
-           sense(
-               camera(), [&](int u, int v) { return (u / 5 + v / 7) % 5 == 0 ? nullptr : &plane; }, 0.1));
+  const NormalField field = fill(
+      depth_camera(),
+      sense(
+          depth_camera(), [&](int u, int v) { return (u / 5 + v / 7) % 5 == 0 ? nullptr : &plane; }, 0.1));
   CHECK(field.size() > 2000);
   CHECK(median_error_deg(field, plane.normal) < 1);
 }
@@ -121,11 +121,11 @@ TEST_CASE("a curved surface is no plane") {
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u)
       depth.at<float>(v, u) = static_cast<float>(1 + 0.08 * std::sin(u * 0.2) * std::sin(v * 0.2));
-  CHECK(fill(camera(), depth).size() < 50);
+  CHECK(fill(depth_camera(), depth).size() < 50);
 }
 
 TEST_CASE("lens distortion is taken out of the normals") {
-  Camera<double> c = camera();
+  Camera<double> c = depth_camera();
   c.distortion.k1 = 0.25;
   c.distortion.k2 = -0.3;
   const Plane plane{Vec3<double>(0.6, 0.3, -1).normalized(), 1.2};
@@ -137,12 +137,12 @@ TEST_CASE("lens distortion is taken out of the normals") {
 
 TEST_CASE("a depth map of half the size serves as well") {
   const Plane plane{Vec3<double>(0.5, -0.3, -1).normalized(), 1.2};
-  Camera<double> half = camera();
+  Camera<double> half = depth_camera();
   half.width = 320;
   half.height = 240;
   half.pinhole = {267.7, 269.6, (320.1 + 0.5) / 2 - 0.5, (247.6 + 0.5) / 2 - 0.5};
-  const NormalField field = fill(camera(), sense(
-                                               half, [&](int, int) { return &plane; }, 0.05));
+  const NormalField field = fill(depth_camera(), sense(
+                                                     half, [&](int, int) { return &plane; }, 0.05));
   CHECK(field.size() > 500);
   CHECK(median_error_deg(field, plane.normal) < 1);
 }
@@ -152,14 +152,14 @@ TEST_CASE("unfit depth is refused and leaves no normals") {
   ImageInput input;
   NormalField field;
   field.push_back(0, 0, -1, 1);
-  CHECK(source.fill(input, camera(), field) == NormalStatus::kNoInput);
+  CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kNoInput);
   CHECK(field.size() == 0);
   input.depth = cv::Mat(480, 500, CV_16U, cv::Scalar(5000));
-  CHECK(source.fill(input, camera(), field) == NormalStatus::kWrongSize);
+  CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kWrongSize);
   input.depth = cv::Mat(480, 640, CV_8UC3, cv::Scalar(1));
-  CHECK(source.fill(input, camera(), field) == NormalStatus::kWrongType);
+  CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kWrongType);
   input.depth = cv::Mat(480, 640, CV_16U, cv::Scalar(0));
-  CHECK(source.fill(input, camera(), field) == NormalStatus::kOk);
+  CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kOk);
   CHECK(field.size() == 0);
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("depth that is not finite counts as a hole") {
   cv::Mat depth(480, 640, CV_32F, cv::Scalar(1.5));
   depth(cv::Rect(0, 0, 320, 480)).setTo(std::numeric_limits<float>::quiet_NaN());
   depth(cv::Rect(320, 0, 40, 480)).setTo(std::numeric_limits<float>::infinity());
-  const NormalField field = fill(camera(), depth);
+  const NormalField field = fill(depth_camera(), depth);
   CHECK(field.size() > 1000);
   CHECK(median_error_deg(field, {0, 0, -1}) < 1e-2);
 }

@@ -13,7 +13,7 @@ using sslam::testing::ScratchFolder;
 
 namespace {
 
-Camera<double> camera() {
+Camera<double> rendered_camera() {
   Camera<double> c;
   c.pinhole = {481.2, 480, 319.5, 239.5};
   c.width = 640;
@@ -62,14 +62,14 @@ TEST_CASE("stored normals come back") {
   SECTION("8 bit and negated") {
     cv::imwrite((folder.path() / "17.png").string(), store<std::uint8_t>(CV_8UC3, 255, {-1, -1, -1}));
     input.name = "17";
-    REQUIRE(source.fill(input, camera(), field) == NormalStatus::kOk);
+    REQUIRE(source.fill(input, rendered_camera(), field) == NormalStatus::kOk);
     check_halves(field, 0.01);
   }
   SECTION("16 bit and other signs") {
     cv::imwrite((folder.path() / "frame.png").string(), store<std::uint16_t>(CV_16UC3, 65535, {1, -1, 1}));
     input.name = "frame";
     source.options.sign = {1, -1, 1};
-    REQUIRE(source.fill(input, camera(), field) == NormalStatus::kOk);
+    REQUIRE(source.fill(input, rendered_camera(), field) == NormalStatus::kOk);
     check_halves(field, 1e-4);
   }
   SECTION("other channels") {
@@ -78,7 +78,7 @@ TEST_CASE("stored normals come back") {
     cv::imwrite((folder.path() / "rgb.png").string(), image);
     input.name = "rgb";
     REQUIRE(parse_normal_encoding("r=+x g=+y b=+z", source.options));
-    REQUIRE(source.fill(input, camera(), field) == NormalStatus::kOk);
+    REQUIRE(source.fill(input, rendered_camera(), field) == NormalStatus::kOk);
     check_halves(field, 0.01);
   }
 }
@@ -91,15 +91,16 @@ TEST_CASE("what cannot be used is named and leaves no normals") {
   NormalField field;
   field.push_back(0, 0, -1, 1);
   input.name = "absent";
-  CHECK(source.fill(input, camera(), field) == NormalStatus::kNoInput);
+  CHECK(source.fill(input, rendered_camera(), field) == NormalStatus::kNoInput);
   CHECK(field.size() == 0);
   folder.write("broken.png", "no image");
   input.name = "broken";
-  CHECK(source.fill(input, camera(), field) == NormalStatus::kUnreadable);
-  CHECK(source.decode(cv::Mat(192, 200, CV_8UC3, cv::Scalar(1)), camera(), field) ==
+  CHECK(source.fill(input, rendered_camera(), field) == NormalStatus::kUnreadable);
+  CHECK(source.decode(cv::Mat(192, 200, CV_8UC3, cv::Scalar(1)), rendered_camera(), field) ==
         NormalStatus::kWrongSize);
-  CHECK(source.decode(cv::Mat(192, 256, CV_8U, cv::Scalar(1)), camera(), field) == NormalStatus::kWrongType);
-  CHECK(source.decode(cv::Mat(192, 256, CV_32FC3, cv::Scalar(1)), camera(), field) ==
+  CHECK(source.decode(cv::Mat(192, 256, CV_8U, cv::Scalar(1)), rendered_camera(), field) ==
+        NormalStatus::kWrongType);
+  CHECK(source.decode(cv::Mat(192, 256, CV_32FC3, cv::Scalar(1)), rendered_camera(), field) ==
         NormalStatus::kWrongType);
 }
 
@@ -108,19 +109,19 @@ TEST_CASE("vectors that are no normals are dropped") {
   source.options.sign = {1, 1, 1};
   NormalField field;
   SECTION("far from unit length") {
-    CHECK(source.decode(cv::Mat(192, 256, CV_8UC3, cv::Scalar(128, 128, 128)), camera(), field) ==
+    CHECK(source.decode(cv::Mat(192, 256, CV_8UC3, cv::Scalar(128, 128, 128)), rendered_camera(), field) ==
           NormalStatus::kOk);
     CHECK(field.size() == 0);
   }
   SECTION("turned away from the camera") {
     cv::Mat image(192, 256, CV_8UC3, cv::Scalar(128, 128, 0));
     image(cv::Rect(0, 0, 60, 192)).setTo(cv::Scalar(128, 128, 255));
-    CHECK(source.decode(image, camera(), field) == NormalStatus::kOk);
+    CHECK(source.decode(image, rendered_camera(), field) == NormalStatus::kOk);
     CHECK(field.size() > 1500);
     for (const float z : field.z) CHECK(z < -0.99F);
   }
   SECTION("most turned away: another convention") {
-    CHECK(source.decode(cv::Mat(192, 256, CV_8UC3, cv::Scalar(128, 128, 255)), camera(), field) ==
+    CHECK(source.decode(cv::Mat(192, 256, CV_8UC3, cv::Scalar(128, 128, 255)), rendered_camera(), field) ==
           NormalStatus::kFacesAway);
     CHECK(field.size() == 0);
   }

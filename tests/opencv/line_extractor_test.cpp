@@ -15,7 +15,7 @@ namespace {
 
 using Lines = std::vector<LineFeature<double>>;
 
-Lines extract(const cv::Mat& image, const LineOptions& options = {}) {
+Lines extract_lines(const cv::Mat& image, const LineOptions& options = {}) {
   LineExtractor extractor;
   extractor.options = options;
   Lines lines;
@@ -50,7 +50,7 @@ TEST_CASE("the sides of a box are found to a tenth of a pixel") {
   const double angle = GENERATE(0.0, 0.21, 0.7);
   const Vec2<double> low(200.3, 140.8), high(430.6, 310.1), middle = (low + high) / 2,
                                                             half = (high - low) / 2;
-  const Lines lines = extract(draw_box({640, 480}, low, high, angle, 190, 70));
+  const Lines lines = extract_lines(draw_box({640, 480}, low, high, angle, 190, 70));
   REQUIRE(lines.size() == 4);
   const Vec2<double> x(std::cos(angle), std::sin(angle)), y(-x.y(), x.x());
   const std::array<Vec2<double>, 4> corners{
@@ -73,11 +73,11 @@ TEST_CASE("the sides of a box are found to a tenth of a pixel") {
 
 TEST_CASE("images without an edge give no lines and print nothing") {
   const Silence silence;
-  CHECK(extract(cv::Mat()).empty());
-  CHECK(extract(cv::Mat(480, 640, CV_8U, cv::Scalar(90))).empty());
-  CHECK(extract(cv::Mat(20, 20, CV_8U, cv::Scalar(90))).empty());
-  CHECK(extract(cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3))).empty());
-  CHECK(extract(cv::Mat(480, 640, CV_16U, cv::Scalar(1))).empty());
+  CHECK(extract_lines(cv::Mat()).empty());
+  CHECK(extract_lines(cv::Mat(480, 640, CV_8U, cv::Scalar(90))).empty());
+  CHECK(extract_lines(cv::Mat(20, 20, CV_8U, cv::Scalar(90))).empty());
+  CHECK(extract_lines(cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3))).empty());
+  CHECK(extract_lines(cv::Mat(480, 640, CV_16U, cv::Scalar(1))).empty());
   CHECK(silence.text().empty());
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("an edge with gaps is one line") {
     if (x > 80 && x < 560 && std::fmod(x, 60) < 8) return 120.0;
     return y > 240.25 + 0.1 * (x - 320) ? 160.0 : 80.0;
   });
-  const Lines lines = extract(image);
+  const Lines lines = extract_lines(image);
   const auto longest = std::max_element(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
     return a.segment.length() < b.segment.length();
   });
@@ -114,7 +114,7 @@ TEST_CASE("an edge with gaps is one line") {
 TEST_CASE("faint edges under noise are found") {
   cv::Mat image = draw_box({640, 480}, {200.3, 140.8}, {430.6, 310.1}, 0.2, 110, 100);
   add_noise(image, 1.5, 2);
-  const Lines lines = extract(image);
+  const Lines lines = extract_lines(image);
   CHECK(lines.size() >= 4);
   double length = 0;
   for (const auto& line : lines) length += line.segment.length();
@@ -126,7 +126,7 @@ TEST_CASE("a dark rim of the image is no line") {
   image.row(479).setTo(0);
   image.col(0).setTo(0);
   image.col(1).setTo(0);
-  CHECK(extract(image).empty());
+  CHECK(extract_lines(image).empty());
 }
 
 TEST_CASE("lines are no shorter than asked for and no more") {
@@ -134,7 +134,7 @@ TEST_CASE("lines are no shorter than asked for and no more") {
   LineOptions options;
   options.min_length_ratio = 0.05;
   options.max_lines = 5;
-  const Lines lines = extract(image, options);
+  const Lines lines = extract_lines(image, options);
   CHECK(lines.size() <= 5);
   for (const auto& line : lines) CHECK(line.segment.length() >= 32);
 }
@@ -149,8 +149,8 @@ TEST_CASE("the descriptor finds an edge again in a shifted image") {
     x += width;
   }
   const Vec2<double> shift(-23, 7);
-  const Lines first = extract(shelf(cv::Rect(0, 10, 640, 460)).clone()),
-              second = extract(shelf(cv::Rect(23, 3, 640, 460)).clone());
+  const Lines first = extract_lines(shelf(cv::Rect(0, 10, 640, 460)).clone()),
+              second = extract_lines(shelf(cv::Rect(23, 3, 640, 460)).clone());
   int right = 0, total = 0;
   for (const auto& line : first) {
     const Segment2<double>& s = line.segment;

@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::vector<PointFeature<double>>;
 
-Points extract(const cv::Mat& image, const OrbOptions& options = {}) {
+Points extract_points(const cv::Mat& image, const OrbOptions& options = {}) {
   OrbExtractor extractor;
   extractor.options = options;
   Points points;
@@ -45,12 +45,12 @@ double median(std::vector<double> values) {
 }  // namespace
 
 TEST_CASE("images without a corner give no points") {
-  CHECK(extract(cv::Mat()).empty());
-  CHECK(extract(cv::Mat(480, 640, CV_8U, cv::Scalar(90))).empty());
-  CHECK(extract(draw({320, 240}, [](double x, double) { return x / 2; })).empty());
-  CHECK(extract(draw_texture({20, 20}, 40, 1)).empty());
-  CHECK(extract(cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3))).empty());
-  CHECK(extract(cv::Mat(480, 640, CV_32F, cv::Scalar(1))).empty());
+  CHECK(extract_points(cv::Mat()).empty());
+  CHECK(extract_points(cv::Mat(480, 640, CV_8U, cv::Scalar(90))).empty());
+  CHECK(extract_points(draw({320, 240}, [](double x, double) { return x / 2; })).empty());
+  CHECK(extract_points(draw_texture({20, 20}, 40, 1)).empty());
+  CHECK(extract_points(cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3))).empty());
+  CHECK(extract_points(cv::Mat(480, 640, CV_32F, cv::Scalar(1))).empty());
 }
 
 TEST_CASE("an image that is refused clears what was there") {
@@ -70,13 +70,13 @@ TEST_CASE("the same image gives the same points") {
   reused.extract(draw_texture({200, 150}, 40, 3), second);
   reused.extract(image, second);
   CHECK(same(first, second));
-  CHECK(same(first, extract(image)));
+  CHECK(same(first, extract_points(image)));
 }
 
 TEST_CASE("points are finite and inside the image and within the budget") {
   OrbOptions options;
   options.points = 300;
-  const Points points = extract(draw_texture({640, 480}, 40, 4), options);
+  const Points points = extract_points(draw_texture({640, 480}, 40, 4), options);
   CHECK(points.size() <= 300);
   CHECK(points.size() >= 290);
   for (const auto& p : points) {
@@ -96,7 +96,7 @@ TEST_CASE("points follow a shift by a fraction of a pixel") {
       return inside ? 60 + 23 * std::fmod(3 * iu + 5 * iv + 40, 7) : 30.0;
     });
   };
-  const Points before = extract(squares({0, 0})), after = extract(squares(shift));
+  const Points before = extract_points(squares({0, 0})), after = extract_points(squares(shift));
   std::vector<double> errors;
   for (const auto& p : before) {
     double nearest = 3;
@@ -115,7 +115,8 @@ TEST_CASE("every part of a textured image gets its share") {
   OrbOptions options;
   options.points = 600;
   std::array<int, 4> quarters{};
-  for (const auto& p : extract(image, options)) ++quarters[(p.pixel.x() > 320) + 2 * (p.pixel.y() > 240)];
+  for (const auto& p : extract_points(image, options))
+    ++quarters[(p.pixel.x() > 320) + 2 * (p.pixel.y() > 240)];
   for (const int count : quarters) CHECK(count > 80);
 }
 
@@ -123,8 +124,8 @@ TEST_CASE("the contrast that is asked for falls where texture is poor") {
   const cv::Mat faint = draw_texture({640, 480}, 4, 7);
   OrbOptions fixed;
   fixed.contrast = {20, 20, 20};
-  CHECK(extract(faint, fixed).size() < 10);
-  CHECK(extract(faint).size() > 200);
+  CHECK(extract_points(faint, fixed).size() < 10);
+  CHECK(extract_points(faint).size() > 200);
 }
 
 TEST_CASE("noise alone gives few points") {
@@ -132,16 +133,16 @@ TEST_CASE("noise alone gives few points") {
   add_noise(image, 3, 8);
   OrbOptions bold;
   bold.noise_factor = 0;
-  const auto found = extract(image).size();
+  const auto found = extract_points(image).size();
   CHECK(found < 150);
-  CHECK(extract(image, bold).size() > 3 * found + 100);
+  CHECK(extract_points(image, bold).size() > 3 * found + 100);
 }
 
 TEST_CASE("descriptor and angle turn with the image") {
   const cv::Mat image = draw_texture({320, 320}, 40, 9);
   cv::Mat turned;
   cv::rotate(image, turned, cv::ROTATE_90_CLOCKWISE);
-  const Points points = extract(image), others = extract(turned);
+  const Points points = extract_points(image), others = extract_points(turned);
   int right = 0, total = 0;
   for (const auto& p : points) {
     const auto& q = most_alike(p, others);
