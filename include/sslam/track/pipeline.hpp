@@ -44,7 +44,7 @@ class Pipeline : public PoseTracking<S, Rotation, Translation, Fallback, Refinem
     else if (!revisit(result))
       initialise(result);
     if (world_.map.empty() || trial.undecided(world_.map) || trial.lost())
-      backfill.keep(frames_.current());
+      backfill.keep(frames_.current(), result.has_pose());
     else
       backfill.clear();
     result.world = world_.number;
@@ -137,6 +137,8 @@ class Pipeline : public PoseTracking<S, Rotation, Translation, Fallback, Refinem
       timer.end(Stage::kLoops);
     }
     world_.log.add(map, result.index, result.stamp, world_.cursor.reference(), frame.cam_from_world);
+    if (!tracked)
+      backfill.run_back(world_.map, fallback, refinement, frame, world_.cursor.reference(), world_.log);
   }
 
   // The frame has just become a keyframe; the world may move under it.

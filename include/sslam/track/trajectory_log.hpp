@@ -2,6 +2,7 @@
 // The trajectory, kept relative to reference keyframes: when mapping moves a keyframe, its frames move along.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,9 +34,13 @@ class TrajectoryLog {
   }
 
   // The other log's map has become part of this one's: what is added to its keyframes' ids, and what its
-  // lengths are multiplied by.
+  // lengths are multiplied by. A frame that both have stays as it is here.
   void append(const TrajectoryLog& other, std::int32_t shift, S scale) {
+    std::vector<std::int64_t> known;
+    for (const TrajectoryEntry<S>& entry : entries_) known.push_back(entry.index);
+    std::sort(known.begin(), known.end());
     for (TrajectoryEntry<S> entry : other.entries_) {
+      if (std::binary_search(known.begin(), known.end(), entry.index)) continue;
       entry.reference += shift;
       entry.frame_from_reference.translation *= scale;
       entries_.push_back(entry);
