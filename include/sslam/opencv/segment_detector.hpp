@@ -19,8 +19,7 @@ namespace sslam {
 struct SegmentDetectorOptions {
   double gradient_error = 1;    // bound on it, grey levels a pixel: lower finds fainter edges
   double max_angle_deg = 22.5;  // between the level lines of a region and their mean
-  double min_density =
-      0.7;  // share of the region's rectangle that belongs to it: less is a curve, or two edges
+  double min_density = 0.7;     // of a region in its rectangle: less is a curve, or two edges
 };
 
 class SegmentDetector {
@@ -64,8 +63,8 @@ class SegmentDetector {
 
   [[nodiscard]] static std::size_t index(int place) noexcept { return static_cast<std::size_t>(place); }
 
-  // Of so many places whose level lines agree by chance, fewer than one is expected in an image of noise
-  // (section 2.7).
+  // Of so many places, or more, whose level lines agree by chance, less than one region is expected in an
+  // image of noise: width, height and place of a rectangle are (w h)^(5/2) choices, each with 11 tolerances.
   [[nodiscard]] std::size_t smallest_region(int width, int height) const noexcept {
     const double tests = 2.5 * (std::log10(width) + std::log10(height)) + std::log10(11.0);
     return static_cast<std::size_t>(-tests / std::log10(options.max_angle_deg / 180));
@@ -97,7 +96,7 @@ class SegmentDetector {
     region_.push_back({place, level_lines_.slope(place), level_lines_.pixel(place) - middle});
   }
 
-  // The rectangle along the principal axis of the region, weighted by slope (section 2.5).
+  // The rectangle along the principal axis of the region, weighted by slope.
   [[nodiscard]] Rectangle enclose() const {
     double weight = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
     for (const Member& m : region_) {
@@ -134,7 +133,7 @@ class SegmentDetector {
   }
 
   // Too much has joined: once more from the same seed with the tolerance that its surroundings show, and if
-  // that is not enough, only what lies near the seed (section 2.6). False where nothing straight is left.
+  // that is not enough, only what lies near the seed. False where nothing straight is left.
   [[nodiscard]] bool thin_out(double tolerance, Rectangle& rectangle) {
     const double spread = spread_around_seed(rectangle.width);
     for (const Member& m : region_) taken_[index(m.place)] = 0;
