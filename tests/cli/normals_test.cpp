@@ -15,6 +15,7 @@
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;
+using sslam::testing::interrupt_program;
 using sslam::testing::Outcome;
 using sslam::testing::run_program;
 using sslam::testing::ScratchFolder;
@@ -24,9 +25,12 @@ namespace {
 
 const std::string kTiny = " --quiet --model " + std::string(SSLAM_FIXTURES) + "/tiny_normals.onnx ";
 
-Outcome normals(const fs::path& images, const fs::path& out, const std::string& options = "",
-                const std::string& before = "") {
-  return run_program("normals " + images.string() + " --out " + out.string() + " " + options, before);
+std::string arguments(const fs::path& images, const fs::path& out, const std::string& options) {
+  return "normals " + images.string() + " --out " + out.string() + " " + options;
+}
+
+Outcome normals(const fs::path& images, const fs::path& out, const std::string& options = "") {
+  return run_program(arguments(images, out, options));
 }
 
 // Grey, which the tiny model takes for planar, and magenta on the right, which it does not.
@@ -132,7 +136,7 @@ TEST_CASE("normals keeps what it has when it is interrupted") {
   fs::create_directories(images);
   for (int i = 0; i < 400; ++i)
     REQUIRE(cv::imwrite((images / (std::to_string(i) + ".png")).string(), half_planar(320, 240)));
-  const Outcome outcome = normals(images, out, "--quiet", "timeout --preserve-status -s INT 2 ");
+  const Outcome outcome = interrupt_program(arguments(images, out, "--quiet"), (out / "0.png").string());
   INFO(outcome.text);
   if (outcome.code == 0) {
     WARN("all was written before it could be interrupted");

@@ -16,7 +16,6 @@ struct Outcome {
   std::string text;  // standard output and error together
 };
 
-// `before` stands in front of the program in the shell, such as "timeout -s INT 1 ".
 // By the shell, standard error with standard output.
 [[nodiscard]] inline Outcome run_command(const std::string& command) {
   std::FILE* pipe = popen(command.c_str(), "r");
@@ -28,8 +27,8 @@ struct Outcome {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
 }
 
-[[nodiscard]] inline Outcome run_program(const std::string& arguments, const std::string& before = "") {
-  return run_command(before + std::string(SSLAM_COMMAND) + " " + arguments + " 2>&1");
+[[nodiscard]] inline Outcome run_program(const std::string& arguments) {
+  return run_command(std::string(SSLAM_COMMAND) + " " + arguments + " 2>&1");
 }
 
 // As by Ctrl-C, a moment after the file or folder `begun` is there; a machine may be so fast that all is done

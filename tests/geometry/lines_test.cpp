@@ -162,3 +162,14 @@ TEST_CASE("derivative of the line update entry by entry") {
     CHECK(worst_entry(mutant, numeric).error > 1e-2);
   }
 }
+
+TEST_CASE("the principal axis of a segment's points is its direction") {
+  for (const double angle : {-3.0, -1.2, 0.0, 0.4, 1.5, 2.8}) {
+    const Vec2<double> d(std::cos(angle), std::sin(angle)), n(-d.y(), d.x());
+    CHECK(cross(d, n) == Approx(1));
+    const Mat2<double> scatter = 4 * d * d.transpose() + n * n.transpose();
+    CHECK((principal_axis(scatter(0, 0), scatter(0, 1), scatter(1, 1), d) - d).norm() < 1e-12);
+    const Vec2<double> back = -d;
+    CHECK((principal_axis(scatter(0, 0), scatter(0, 1), scatter(1, 1), back) - back).norm() < 1e-12);
+  }
+}

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
 
-Camera<double> small_camera() {
+Camera<double> frontend_camera() {
   Camera<double> c;
   c.pinhole = {500, 510, 322, 237};
   c.width = kWidth;
@@ -50,7 +50,7 @@ bool same(const Frame<double>& a, const Frame<double>& b) {
 
 TEST_CASE("a frame is filled and its stages are timed") {
   ImageFrontend<DepthNormals> frontend;
-  frontend.camera = small_camera();
+  frontend.camera = frontend_camera();
   Frame<double> frame;
   const FrontendReport report = frontend.process(scene(), frame);
   CHECK(report.image == ImageStatus::kOk);
@@ -68,7 +68,7 @@ TEST_CASE("a frame is filled and its stages are timed") {
 
 TEST_CASE("two threads and one give the same frame") {
   ImageFrontend<DepthNormals> frontend;
-  frontend.camera = small_camera();
+  frontend.camera = frontend_camera();
   Frame<double> one, two;
   REQUIRE(frontend.process(scene(), two).image == ImageStatus::kOk);
   frontend.parallel = false;
@@ -78,7 +78,7 @@ TEST_CASE("two threads and one give the same frame") {
 
 TEST_CASE("grey and coloured images of one scene give one frame") {
   ImageFrontend<> frontend;
-  frontend.camera = small_camera();
+  frontend.camera = frontend_camera();
   ImageInput input = scene();
   Frame<double> grey, colour, alpha;
   REQUIRE(frontend.process(input, grey).image == ImageStatus::kOk);
@@ -93,7 +93,7 @@ TEST_CASE("grey and coloured images of one scene give one frame") {
 
 TEST_CASE("images that do not fit are named and leave the frame alone") {
   ImageFrontend<> frontend;
-  frontend.camera = small_camera();
+  frontend.camera = frontend_camera();
   Frame<double> frame;
   frame.index = 7;
   ImageInput input;
@@ -107,7 +107,7 @@ TEST_CASE("images that do not fit are named and leave the frame alone") {
 
 TEST_CASE("missing depth costs the normals and nothing else") {
   ImageFrontend<DepthNormals> frontend;
-  frontend.camera = small_camera();
+  frontend.camera = frontend_camera();
   ImageInput input = scene();
   input.depth.release();
   Frame<double> frame;
@@ -120,7 +120,7 @@ TEST_CASE("missing depth costs the normals and nothing else") {
 }
 
 TEST_CASE("points and lines of a lens that distorts come out straight") {
-  Camera<double> lens = small_camera();
+  Camera<double> lens = frontend_camera();
   lens.distortion.k1 = -0.3;
   lens.distortion.k2 = 0.08;
   lens.distortion.p1 = 0.001;
@@ -133,7 +133,7 @@ TEST_CASE("points and lines of a lens that distorts come out straight") {
   ImageInput input;
   Frame<double> ideal, seen;
   ImageFrontend<> frontend;
-  frontend.camera = small_camera();
+  frontend.camera = frontend_camera();
   input.image = draw({kWidth, kHeight}, [&](double x, double y) { return shade({x, y}); });
   REQUIRE(frontend.process(input, ideal).image == ImageStatus::kOk);
   frontend.camera = lens;

@@ -2,6 +2,8 @@
 // Segments and lines in the image, and the plane that a segment spans with the camera centre.
 #pragma once
 
+#include <cmath>
+
 #include "sslam/geometry/camera.hpp"
 
 namespace sslam {
@@ -19,6 +21,20 @@ struct Segment2 {
     return norm > 0 ? Vec2<S>(d / norm) : Vec2<S>(Vec2<S>::Zero());
   }
 };
+
+// The sine of the turn from a to b, positive from x towards y, times both lengths.
+template <Scalar S>
+[[nodiscard]] S cross(const Vec2<S>& a, const Vec2<S>& b) noexcept {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Unit, along the largest spread of a scatter with the second moments xx, xy, yy, on the side of `towards`.
+template <Scalar S>
+[[nodiscard]] Vec2<S> principal_axis(S xx, S xy, S yy, const Vec2<S>& towards) noexcept {
+  const S angle = S(0.5) * std::atan2(2 * xy, xx - yy);
+  const Vec2<S> axis(std::cos(angle), std::sin(angle));
+  return axis.dot(towards) < 0 ? Vec2<S>(-axis) : axis;
+}
 
 // (a, b, c) with a^2 + b^2 = 1: l . (u, v, 1) is the signed distance from the line. Zero where p = q.
 template <Scalar S>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The level lines of an image: where the grey value changes, the direction along which it does not, and the
-// steepest places first (Grompone von Gioi, Jakubowicz, Morel, Randall, LSD, IPOL 2012, sections 2.2
-// and 2.3).
+// steepest places first (Grompone von Gioi, Jakubowicz, Morel, Randall, LSD, IPOL 2012: gradient and
+// pseudo-ordering).
 #pragma once
 
 #include <algorithm>

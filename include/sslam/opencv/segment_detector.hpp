@@ -110,15 +110,13 @@ class SegmentDetector {
     }
     Rectangle rectangle;
     rectangle.centre = Vec2<double>(x, y) / weight;
-    const double angle =
-        0.5 * std::atan2(2 * (xy - x * y / weight), xx - x * x / weight - (yy - y * y / weight));
-    rectangle.along = {std::cos(angle), std::sin(angle)};
-    if (rectangle.along.dot(sum_.cast<double>()) < 0) rectangle.along = -rectangle.along;
+    rectangle.along = principal_axis(xx - x * x / weight, xy - x * y / weight, yy - y * y / weight,
+                                     Vec2<double>(sum_.cast<double>()));
     double low = 0, high = 0;
     for (const Member& m : region_) {
       const Vec2<double> off = m.off - rectangle.centre;
       const double along = rectangle.along.dot(off);
-      const double across = rectangle.along.x() * off.y() - rectangle.along.y() * off.x();
+      const double across = cross(rectangle.along, off);
       rectangle.begin = std::min(rectangle.begin, along);
       rectangle.end = std::max(rectangle.end, along);
       low = std::min(low, across);
@@ -162,8 +160,7 @@ class SegmentDetector {
     for (const Member& m : region_) {
       if (m.off.squaredNorm() >= reach * reach) continue;
       const Vec2<float>& other = level_lines_.direction(m.place);
-      const double turn =
-          std::atan2(direction.x() * other.y() - direction.y() * other.x(), direction.dot(other));
+      const double turn = std::atan2(cross(direction, other), direction.dot(other));
       sum += turn;
       squares += turn * turn;
       ++count;

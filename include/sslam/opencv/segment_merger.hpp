@@ -53,10 +53,6 @@ class SegmentMerger {
     double length;
   };
 
-  [[nodiscard]] static double cross(const Vec2<double>& a, const Vec2<double>& b) noexcept {
-    return a.x() * b.y() - a.y() * b.x();
-  }
-
   [[nodiscard]] static bool fit(const Rod& longer, const Rod& shorter, double max_tangent,
                                 const SegmentMergeOptions& options) noexcept {
     const Vec2<double>& d = longer.direction;
@@ -80,9 +76,7 @@ class SegmentMerger {
                          off = rod->segment.midpoint() - centre;
       scatter += rod->length * (along * along.transpose() / 12 + off * off.transpose());
     }
-    const double angle = 0.5 * std::atan2(2 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
-    Vec2<double> d(std::cos(angle), std::sin(angle));
-    if (d.dot(a.direction) < 0) d = -d;
+    const Vec2<double> d = principal_axis(scatter(0, 0), scatter(0, 1), scatter(1, 1), a.direction);
     double low = 0, high = 0;
     for (const Vec2<double>* p : {&a.segment.start, &a.segment.end, &b.segment.start, &b.segment.end}) {
       low = std::min(low, d.dot(*p - centre));
