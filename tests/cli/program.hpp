@@ -27,8 +27,9 @@ struct Outcome {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
 }
 
-[[nodiscard]] inline Outcome run_program(const std::string& arguments) {
-  return run_command(std::string(SSLAM_COMMAND) + " " + arguments + " 2>&1");
+// `before` stands in front of the program in the shell, such as "ulimit -f 3000; ".
+[[nodiscard]] inline Outcome run_program(const std::string& arguments, const std::string& before = "") {
+  return run_command(before + std::string(SSLAM_COMMAND) + " " + arguments + " 2>&1");
 }
 
 // As by Ctrl-C, a moment after the file or folder `begun` is there; a machine may be so fast that all is done
