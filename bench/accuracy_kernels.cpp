@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "manhattan/vote_scene.hpp"
-#include "solver/two_views.hpp"
+#include "solver/two_view/two_views.hpp"
 #include "sslam/manhattan/rotation.hpp"
-#include "sslam/solver/translation.hpp"
+#include "sslam/solver/two_view/translation.hpp"
 
 namespace {
 

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "rotation_offsets.hpp"
-#include "sslam/io/known_cameras.hpp"
-#include "sslam/io/open_dataset.hpp"
+#include "sslam/io/datasets/known_cameras.hpp"
+#include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/manhattan/search.hpp"
-#include "sslam/opencv/depth_normals.hpp"
-#include "sslam/opencv/file_normals.hpp"
 #include "sslam/opencv/image_frontend.hpp"
-#include "sslam/opencv/onnx_normals.hpp"
+#include "sslam/opencv/normals/depth_normals.hpp"
+#include "sslam/opencv/normals/file_normals.hpp"
+#include "sslam/opencv/normals/onnx_normals.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <Eigen/SVD>
 
 #include "smallest.hpp"
-#include "sslam/solver/find_relative_pose.hpp"
-#include "sslam/solver/translation.hpp"
+#include "sslam/solver/two_view/find_relative_pose.hpp"
+#include "sslam/solver/two_view/translation.hpp"
 #include "support/room_frame.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "sslam/ceres/cost_functions.hpp"
-#include "sslam/solver/pose_problem.hpp"
+#include "sslam/solver/pose/pose_problem.hpp"
 
 namespace sslam::bench {
 

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/progress_options.hpp"
+#include "cli/results/run_folder.hpp"
 #include "cli/run.hpp"
-#include "cli/run_folder.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/progress_options.hpp"
 #include "cli/synth.hpp"
 
 namespace sslam::cli {

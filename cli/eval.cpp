@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/choice_option.hpp"
 #include "cli/commands.hpp"
-#include "cli/eval_report.hpp"
-#include "cli/messages.hpp"
-#include "cli/truth_source.hpp"
-#include "sslam/io/comparison_view.hpp"
-#include "sslam/io/evaluation.hpp"
+#include "cli/results/eval_report.hpp"
+#include "cli/results/truth_source.hpp"
+#include "cli/shell/choice_option.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/io/evaluation/evaluation.hpp"
+#include "sslam/io/plots/comparison_view.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "cli/keyframe_images.hpp"
-#include "cli/map_ply.hpp"
-#include "cli/messages.hpp"
-#include "cli/run_folder.hpp"
-#include "sslam/io/colmap_writer.hpp"
-#include "sslam/io/kitti.hpp"
+#include "cli/results/keyframe_images.hpp"
+#include "cli/results/map_ply.hpp"
+#include "cli/results/run_folder.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/io/maps/colmap_writer.hpp"
+#include "sslam/io/trajectories/kitti.hpp"
 
 namespace sslam::cli {
 namespace {

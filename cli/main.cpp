@@ -11,10 +11,10 @@
 
 #include "cli/batch/child.hpp"
 #include "cli/commands.hpp"
-#include "cli/completion.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/man_page.hpp"
-#include "cli/messages.hpp"
+#include "cli/shell/completion.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/man_page.hpp"
+#include "cli/shell/messages.hpp"
 
 namespace sslam::cli {
 namespace {

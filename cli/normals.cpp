@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/frame_reader.hpp"
-#include "cli/image_camera.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/normal_files.hpp"
-#include "cli/open_images.hpp"
-#include "cli/progress_options.hpp"
-#include "cli/shipped_model.hpp"
-#include "sslam/io/statistics.hpp"
-#include "sslam/opencv/onnx_normals.hpp"
+#include "cli/input/frame_reader.hpp"
+#include "cli/input/image_camera.hpp"
+#include "cli/input/normal_files.hpp"
+#include "cli/input/open_images.hpp"
+#include "cli/input/shipped_model.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "cli/shell/progress_options.hpp"
+#include "sslam/io/evaluation/statistics.hpp"
+#include "sslam/opencv/normals/onnx_normals.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "cli/base64.hpp"
 #include "cli/commands.hpp"
-#include "cli/messages.hpp"
-#include "cli/report_data.hpp"
-#include "cli/report_page.hpp"
-#include "cli/run_folder.hpp"
-#include "sslam/io/output_file.hpp"
+#include "cli/report/base64.hpp"
+#include "cli/report/report_data.hpp"
+#include "cli/report/report_page.hpp"
+#include "cli/results/run_folder.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
 namespace {

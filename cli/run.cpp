@@ -9,20 +9,20 @@
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/config_file.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/live_view.hpp"
-#include "cli/messages.hpp"
-#include "cli/option_info.hpp"
-#include "cli/overlay_video.hpp"
-#include "cli/presets.hpp"
-#include "cli/progress_options.hpp"
+#include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
-#include "cli/run_check.hpp"
-#include "cli/run_report.hpp"
-#include "cli/shipped_model.hpp"
-#include "cli/view_options.hpp"
-#include "sslam/io/map_file.hpp"
+#include "cli/results/run_report.hpp"
+#include "cli/run/presets.hpp"
+#include "cli/run/run_check.hpp"
+#include "cli/shell/config_file.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/messages.hpp"
+#include "cli/shell/option_info.hpp"
+#include "cli/shell/progress_options.hpp"
+#include "cli/video/overlay_video.hpp"
+#include "cli/view/live_view.hpp"
+#include "cli/view/view_options.hpp"
+#include "sslam/io/maps/map_file.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/progress.hpp"
-#include "sslam/io/dataset.hpp"
+#include "cli/shell/progress.hpp"
+#include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 

@@ -14,19 +14,19 @@
 #include <string>
 #include <vector>
 
-#include "cli/choice_option.hpp"
 #include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/option_info.hpp"
-#include "cli/progress_options.hpp"
-#include "cli/synth_files.hpp"
-#include "cli/synth_names.hpp"
-#include "cli/worker_threads.hpp"
-#include "sslam/io/error.hpp"
-#include "sslam/io/text.hpp"
-#include "sslam/testing/render.hpp"
-#include "sslam/testing/shutter.hpp"
+#include "cli/shell/choice_option.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "cli/shell/option_info.hpp"
+#include "cli/shell/progress_options.hpp"
+#include "cli/shell/worker_threads.hpp"
+#include "cli/synth/synth_files.hpp"
+#include "cli/synth/synth_names.hpp"
+#include "sslam/io/files/error.hpp"
+#include "sslam/io/files/text.hpp"
+#include "sslam/synth/render.hpp"
+#include "sslam/synth/shutter.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/progress.hpp"
-#include "sslam/testing/house.hpp"
-#include "sslam/testing/sensor.hpp"
+#include "cli/shell/progress.hpp"
+#include "sslam/synth/house.hpp"
+#include "sslam/synth/sensor.hpp"
 
 namespace sslam::cli {
 

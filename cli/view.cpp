@@ -7,15 +7,15 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/map_figures.hpp"
-#include "cli/messages.hpp"
 #include "cli/report.hpp"
-#include "cli/report_data.hpp"
-#include "cli/run_folder.hpp"
-#include "cli/view_options.hpp"
-#include "cli/view_server.hpp"
-#include "sslam/io/map_file.hpp"
+#include "cli/report/report_data.hpp"
+#include "cli/results/map_figures.hpp"
+#include "cli/results/run_folder.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "cli/shell/messages.hpp"
+#include "cli/view/view_options.hpp"
+#include "cli/view/view_server.hpp"
+#include "sslam/io/maps/map_file.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -1,10 +1,10 @@
-# Installs the library as a package with components: find_package(sslam COMPONENTS core opencv ceres io live).
+# Installs the library as a package with components: find_package(sslam COMPONENTS core opencv ceres io live synth).
 # Each component has an export of its own, so that the core never looks for OpenCV or Ceres. What a developer needs is
 # the install component `dev`, the command line is `cli`.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/sslam")
 
-foreach(component core io live opencv ceres)
+foreach(component core io live synth opencv ceres)
   if(TARGET sslam_${component})
     install(TARGETS sslam_${component} EXPORT sslam_${component} FILE_SET HEADERS
             DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)

@@ -7,8 +7,8 @@
 
 #include <utility>
 
-#include "sslam/io/output_file.hpp"
-#include "sslam/io/text.hpp"
+#include "sslam/io/files/output_file.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {

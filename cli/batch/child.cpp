@@ -12,8 +12,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "sslam/io/error.hpp"
-#include "sslam/io/text.hpp"
+#include "sslam/io/files/error.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/eval_report.hpp"
-#include "sslam/io/text.hpp"
+#include "cli/results/eval_report.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "sslam/io/statistics.hpp"
+#include "sslam/io/evaluation/statistics.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "cli/batch/run_mark.hpp"
-#include "sslam/io/evaluation.hpp"
-#include "sslam/io/text.hpp"
+#include "sslam/io/evaluation/evaluation.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {

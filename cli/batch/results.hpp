@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/batch/plan.hpp"
-#include "sslam/io/trajectory.hpp"
+#include "sslam/io/trajectories/trajectory.hpp"
 
 namespace sslam::cli {
 

@@ -11,9 +11,9 @@
 #include "cli/batch/child.hpp"
 #include "cli/batch/cores.hpp"
 #include "cli/batch/run_mark.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/messages.hpp"
-#include "sslam/io/error.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 namespace {

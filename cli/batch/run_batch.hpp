@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "cli/batch/plan.hpp"
-#include "cli/progress.hpp"
+#include "cli/shell/progress.hpp"
 
 namespace sslam::cli {
 

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "cli/eval_report.hpp"
-#include "sslam/io/checksum.hpp"
-#include "sslam/io/text.hpp"
+#include "cli/results/eval_report.hpp"
+#include "sslam/io/files/text.hpp"
+#include "sslam/io/maps/checksum.hpp"
 
 namespace sslam::cli {
 namespace {

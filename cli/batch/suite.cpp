@@ -7,8 +7,8 @@
 
 #include "cli/batch/suite_methods.hpp"
 #include "cli/batch/suite_table.hpp"
-#include "sslam/io/files.hpp"
-#include "sslam/io/known_cameras.hpp"
+#include "sslam/io/datasets/known_cameras.hpp"
+#include "sslam/io/files/files.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/dataset.hpp"
+#include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 

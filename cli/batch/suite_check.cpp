@@ -4,9 +4,9 @@
 #include <set>
 
 #include "cli/batch/plan.hpp"
-#include "cli/messages.hpp"
-#include "cli/run_check.hpp"
-#include "cli/truth_source.hpp"
+#include "cli/results/truth_source.hpp"
+#include "cli/run/run_check.hpp"
+#include "cli/shell/messages.hpp"
 
 namespace sslam::cli {
 namespace {

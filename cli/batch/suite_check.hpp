@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/batch/suite.hpp"
-#include "sslam/io/trajectory.hpp"
+#include "sslam/io/trajectories/trajectory.hpp"
 
 namespace sslam::cli {
 

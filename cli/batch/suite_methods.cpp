@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cli/batch/suite_table.hpp"
-#include "sslam/io/text.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {

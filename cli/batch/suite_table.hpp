@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/batch/closest_word.hpp"
-#include "sslam/io/error.hpp"
+#include "cli/shell/closest_word.hpp"
+#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 

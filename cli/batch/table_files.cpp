@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cli/batch/table_formats.hpp"
-#include "sslam/io/csv_writer.hpp"
-#include "sslam/io/output_file.hpp"
+#include "sslam/io/files/csv_writer.hpp"
+#include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "cli/image_camera.hpp"
-#include "sslam/io/error.hpp"
-#include "sslam/io/text.hpp"
+#include "cli/input/image_camera.hpp"
+#include "sslam/io/files/error.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "cli/exit_code.hpp"
-#include "cli/frame_reader.hpp"
-#include "cli/image_camera.hpp"
-#include "cli/interrupt.hpp"
+#include "cli/input/frame_reader.hpp"
+#include "cli/input/image_camera.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/interrupt.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/calibrate/board.hpp"
-#include "cli/progress.hpp"
-#include "sslam/io/dataset.hpp"
+#include "cli/shell/progress.hpp"
+#include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 

@@ -6,8 +6,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "sslam/core/types.hpp"
-#include "sslam/io/error.hpp"
-#include "sslam/io/statistics.hpp"
+#include "sslam/io/evaluation/statistics.hpp"
+#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
-#include "sslam/io/error.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 namespace {

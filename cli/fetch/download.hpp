@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/progress.hpp"
+#include "cli/shell/progress.hpp"
 
 namespace sslam::cli {
 

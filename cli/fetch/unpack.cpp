@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
-#include "sslam/io/output_file.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sslam/io/error.hpp"
+#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 

@@ -4,9 +4,9 @@
 
 #include "sslam/geometry/nearest_rotation.hpp"
 #include "sslam/manhattan/search.hpp"
-#include "sslam/solver/find_relative_pose.hpp"
-#include "sslam/solver/plane_motion.hpp"
-#include "sslam/solver/translation.hpp"
+#include "sslam/solver/two_view/find_relative_pose.hpp"
+#include "sslam/solver/two_view/plane_motion.hpp"
+#include "sslam/solver/two_view/translation.hpp"
 #include "support/room_frame.hpp"
 
 namespace sslam::testing {

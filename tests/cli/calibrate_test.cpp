@@ -10,7 +10,7 @@
 
 #include "cli/board_renderer.hpp"
 #include "cli/program.hpp"
-#include "sslam/opencv/camera_file.hpp"
+#include "sslam/opencv/camera/camera_file.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 

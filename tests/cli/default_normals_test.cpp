@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which source of normals a run takes when nobody names one.
-#include "cli/default_normals.hpp"
+#include "cli/input/default_normals.hpp"
 
 #include <vector>
 

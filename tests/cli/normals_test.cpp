@@ -10,7 +10,7 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "sslam/opencv/normal_picture.hpp"
+#include "sslam/opencv/normals/normal_picture.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 

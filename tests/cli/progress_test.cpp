@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "cli/room_copy.hpp"
-#include "sslam/io/csv_reader.hpp"
+#include "sslam/io/files/csv_reader.hpp"
 #include "support/catch.hpp"
 
 namespace fs = std::filesystem;

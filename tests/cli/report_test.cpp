@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/base64.hpp"
 #include "cli/program.hpp"
+#include "cli/report/base64.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -13,8 +13,8 @@
 
 #include "cli/program.hpp"
 #include "sslam/geometry/camera.hpp"
-#include "sslam/io/trajectory.hpp"
-#include "sslam/opencv/camera_file.hpp"
+#include "sslam/io/trajectories/trajectory.hpp"
+#include "sslam/opencv/camera/camera_file.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/overlay_colours.hpp"
 #include "cli/room_copy.hpp"
-#include "sslam/io/csv_reader.hpp"
+#include "cli/video/overlay_colours.hpp"
+#include "sslam/io/files/csv_reader.hpp"
 #include "support/catch.hpp"
 
 namespace fs = std::filesystem;

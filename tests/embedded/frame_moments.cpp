@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/mean_shift.hpp"
+#include "sslam/solver/modes/mean_shift.hpp"
 
 namespace sslam::embedded {
 

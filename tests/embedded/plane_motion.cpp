@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/plane_motion.hpp"
+#include "sslam/solver/two_view/plane_motion.hpp"
 
 namespace sslam::embedded {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/pose_refinement.hpp"
+#include "sslam/solver/pose/pose_refinement.hpp"
 
 namespace sslam::embedded {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/relative_pose.hpp"
+#include "sslam/solver/two_view/relative_pose.hpp"
 
 namespace sslam::embedded {
 

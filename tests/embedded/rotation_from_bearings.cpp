@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/rotation_from_bearings.hpp"
+#include "sslam/solver/two_view/rotation_from_bearings.hpp"
 
 namespace sslam::embedded {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/translation.hpp"
+#include "sslam/solver/two_view/translation.hpp"
 
 namespace sslam::embedded {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/triangulate_line.hpp"
+#include "sslam/solver/triangulation/triangulate_line.hpp"
 
 namespace sslam::embedded {
 

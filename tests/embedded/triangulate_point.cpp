@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/solver/triangulate_point.hpp"
+#include "sslam/solver/triangulation/triangulate_point.hpp"
 
 namespace sslam::embedded {
 

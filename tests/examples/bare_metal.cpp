@@ -6,7 +6,7 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/manhattan/rotation.hpp"
-#include "sslam/solver/translation.hpp"
+#include "sslam/solver/two_view/translation.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "sslam/residual/point_reprojection.hpp"
-#include "sslam/solver/levenberg_marquardt.hpp"
+#include "sslam/solver/least_squares/levenberg_marquardt.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 
 namespace {

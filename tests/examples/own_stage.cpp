@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "sslam/track/fallback.hpp"
-#include "sslam/track/keyframe_choice.hpp"
+#include "sslam/track/localise/fallback.hpp"
+#include "sslam/track/localise/refinement.hpp"
+#include "sslam/track/mapping/keyframe_choice.hpp"
 #include "sslam/track/pipeline.hpp"
-#include "sslam/track/refinement.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/error.hpp"
+#include "sslam/io/files/error.hpp"
 #include "support/catch.hpp"
 
 namespace sslam::testing {

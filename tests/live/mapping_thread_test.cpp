@@ -17,7 +17,7 @@ using LivePipeline = live::Structure<double>;
 // Frames come no faster than mapping can bear, whatever machine and sanitizer this runs on.
 // A camera would not wait.
 TrackResult<double> track(LivePipeline& pipeline, Frame<double> frame) {
-  while (pipeline.upkeep.courier.running() && !pipeline.upkeep.courier.room())
+  while (pipeline.upkeep.channel.running() && !pipeline.upkeep.channel.room())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return pipeline.track(frame);
 }
@@ -27,7 +27,7 @@ TrackResult<double> track(LivePipeline& pipeline, Frame<double> frame) {
 TEST_CASE("A walk is tracked while another thread keeps the map") {
   Simulation simulation(walk(150));
   LivePipeline pipeline;
-  pipeline.upkeep.courier.max_waiting = 2;  // one in work: a map too old for what is seen loses track
+  pipeline.upkeep.channel.max_waiting = 2;  // one in work: a map too old for what is seen loses track
   std::vector<TrackResult<double>> results;
   for (std::size_t k = 0; k < simulation.size(); ++k) results.push_back(track(pipeline, simulation.frame(k)));
   pipeline.finish();
@@ -44,7 +44,7 @@ TEST_CASE("A walk is tracked while another thread keeps the map") {
 TEST_CASE("A camera that is faster than mapping gets fewer keyframes and no waiting") {
   Simulation simulation(walk(60));
   LivePipeline pipeline;
-  pipeline.upkeep.courier.max_waiting = 1;
+  pipeline.upkeep.channel.max_waiting = 1;
   pipeline.keyframes.min_gap = 0;
   pipeline.keyframes.max_baseline = 0;  // each frame wants to be one
   for (std::size_t k = 0; k < simulation.size(); ++k) {
@@ -60,7 +60,7 @@ TEST_CASE("A pipeline ends while its thread is at work") {
   Simulation simulation(walk(60));
   LivePipeline pipeline;
   for (std::size_t k = 0; k < simulation.size(); ++k) (void)track(pipeline, simulation.frame(k));
-  REQUIRE(pipeline.upkeep.courier.running());
+  REQUIRE(pipeline.upkeep.channel.running());
 }
 
 TEST_CASE("What stops the thread is thrown at the tracker") {

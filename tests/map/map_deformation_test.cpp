@@ -2,7 +2,7 @@
 #include "sslam/map/map_deformation.hpp"
 
 #include "sslam/map/bundle_window.hpp"
-#include "sslam/solver/bundle_solver.hpp"
+#include "sslam/solver/bundle/bundle_solver.hpp"
 #include "support/catch.hpp"
 #include "support/map_scene.hpp"
 
@@ -42,7 +42,7 @@ TEST_CASE("A map that moves as a whole looks the same from its keyframes") {
   CHECK((map.keyframes[3].cam_from_world.inverse().translation - some_similarity() * centre).norm() < 1e-9);
 }
 
-TEST_CASE("Where a removed keyframe stood moves with its heir, distances to scale") {
+TEST_CASE("Where a removed keyframe stood moves with its parent, distances to scale") {
   MapScene scene({.points = 400, .lines = 100}, sweep(8));
   Map<double> map = scene.make_map();
   map.erase_keyframe(4, 5);

@@ -94,7 +94,7 @@ TEST_CASE("A keyframe that joins with matches enters them and drops dead ones") 
   REQUIRE(map.keyframes[map.index(id)].point_landmarks[1] == kNone);
 }
 
-TEST_CASE("A keyframe that is erased leaves its place to its heir and nothing else") {
+TEST_CASE("A keyframe that is erased leaves its place to its parent and nothing else") {
   Map<double> map = small_map();
   for (int k = 0; k < 3; ++k) map.keyframes[map.index(k)].cam_from_world.translation.x() = k;
   map.erase_keyframe(1, 2);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sslam/opencv/depth_normals.hpp"
+#include "sslam/opencv/normals/depth_normals.hpp"
 #include "support/catch.hpp"
 #include "synthetic_image.hpp"
 

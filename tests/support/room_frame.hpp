@@ -11,9 +11,9 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/manhattan/votes.hpp"
-#include "sslam/solver/pose_refinement.hpp"
-#include "sslam/solver/triangulate_line.hpp"
-#include "sslam/solver/triangulate_point.hpp"
+#include "sslam/solver/pose/pose_refinement.hpp"
+#include "sslam/solver/triangulation/triangulate_line.hpp"
+#include "sslam/solver/triangulation/triangulate_point.hpp"
 #include "support/random_draws.hpp"
 
 namespace sslam::testing {

@@ -142,7 +142,7 @@ TEST_CASE("Wherever a later run starts in a map its first frame is recognised") 
   }
 }
 
-TEST_CASE("A place that stands askew to the Manhattan frame is not taken for the one that was lost") {
+TEST_CASE("A place that stands inconsistent to the Manhattan frame is not taken for the one that was lost") {
   Simulation simulation(walk(100));
   presets::Structure<double> first;
   track_all(first, simulation);

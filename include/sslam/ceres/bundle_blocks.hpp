@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sslam/ceres/manifolds.hpp"
-#include "sslam/solver/bundle_graph.hpp"
+#include "sslam/solver/bundle/bundle_graph.hpp"
 
 namespace sslam {
 

@@ -13,7 +13,7 @@
 
 #include "sslam/ceres/bundle_blocks.hpp"
 #include "sslam/ceres/plane_costs.hpp"
-#include "sslam/solver/bundle_summary.hpp"
+#include "sslam/solver/bundle/bundle_summary.hpp"
 
 namespace sslam {
 

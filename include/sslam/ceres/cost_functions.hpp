@@ -8,7 +8,7 @@
 #include "sslam/ceres/manifolds.hpp"
 #include "sslam/residual/line_reprojection.hpp"
 #include "sslam/residual/point_reprojection.hpp"
-#include "sslam/solver/bundle_ties.hpp"
+#include "sslam/solver/bundle/bundle_ties.hpp"
 
 namespace sslam {
 

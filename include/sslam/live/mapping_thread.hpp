@@ -11,9 +11,9 @@
 #include <thread>
 #include <utility>
 
-#include "sslam/track/deferred_upkeep.hpp"
-#include "sslam/track/map_keeper.hpp"
 #include "sslam/track/presets.hpp"
+#include "sslam/track/upkeep/deferred_upkeep.hpp"
+#include "sslam/track/upkeep/map_server.hpp"
 
 namespace sslam::live {
 
@@ -30,7 +30,7 @@ class MappingThread {
   // The stages are the thread's until finish() or stop().
   void begin(const Map<S>& map, Mapping& mapping, Loops& loops) {
     stop();
-    keeper_.begin(map);
+    server_.begin(map);
     ending_ = fresh_ = false;
     thread_ = std::thread([this, &mapping, &loops] { work(mapping, loops); });
   }
@@ -51,19 +51,19 @@ class MappingThread {
   }
 
   // Throws what has stopped the thread, if something has.
-  [[nodiscard]] bool newest(MapEdition<S>& edition) {
+  [[nodiscard]] bool newest(MapSnapshot<S>& snapshot) {
     const std::lock_guard lock(mutex_);
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     if (!fresh_) return false;
-    std::swap(edition, newest_);
+    std::swap(snapshot, newest_);
     fresh_ = false;
     return true;
   }
 
-  void finish(MapEdition<S>& edition) {
+  void finish(MapSnapshot<S>& snapshot) {
     end();
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-    keeper_.publish(edition);
+    server_.publish(snapshot);
   }
 
   // Waits for the keyframe in work alone.
@@ -91,8 +91,8 @@ class MappingThread {
   void work(Mapping& mapping, Loops& loops) {
     try {
       for (KeyframePost<S> post; next(post); post = {}) {  // frees its memory outside the lock
-        keeper_.take(post, mapping, loops);
-        keeper_.publish(spare_);
+        server_.take(post, mapping, loops);
+        server_.publish(spare_);
         const std::lock_guard lock(mutex_);
         std::swap(spare_, newest_);
         fresh_ = true;
@@ -115,12 +115,12 @@ class MappingThread {
     return true;
   }
 
-  MapKeeper<S> keeper_;  // the thread's, while it runs
-  MapEdition<S> spare_;  // the thread's too
-  std::mutex mutex_;     // for what follows
+  MapServer<S> server_;   // the thread's, while it runs
+  MapSnapshot<S> spare_;  // the thread's too
+  std::mutex mutex_;      // for what follows
   std::condition_variable changed_;
   std::deque<KeyframePost<S>> posts_;
-  MapEdition<S> newest_;
+  MapSnapshot<S> newest_;
   bool fresh_ = false;  // newest_ has not been taken
   bool busy_ = false;   // a post has been taken that is not in newest_
   bool ending_ = false;

@@ -11,7 +11,7 @@
 
 #include "sslam/manhattan/line_circles.hpp"
 #include "sslam/manhattan/normal_modes.hpp"
-#include "sslam/solver/positive_inverse.hpp"
+#include "sslam/solver/least_squares/positive_inverse.hpp"
 
 namespace sslam {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "sslam/manhattan/line_circles.hpp"
-#include "sslam/solver/mean_shift.hpp"
+#include "sslam/solver/modes/mean_shift.hpp"
 
 namespace sslam {
 

@@ -10,7 +10,7 @@
 #include "sslam/manhattan/cube.hpp"
 #include "sslam/manhattan/frame_refiner.hpp"
 #include "sslam/manhattan/turned_start.hpp"
-#include "sslam/solver/positive_inverse.hpp"
+#include "sslam/solver/least_squares/positive_inverse.hpp"
 
 namespace sslam {
 

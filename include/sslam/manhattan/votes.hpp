@@ -8,7 +8,7 @@
 
 #include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/line2.hpp"
-#include "sslam/solver/mean_shift.hpp"
+#include "sslam/solver/modes/mean_shift.hpp"
 
 namespace sslam {
 

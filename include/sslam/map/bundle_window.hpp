@@ -8,8 +8,8 @@
 
 #include "sslam/map/map.hpp"
 #include "sslam/map/plane_ties.hpp"
-#include "sslam/solver/bundle_graph.hpp"
-#include "sslam/solver/positive_inverse.hpp"
+#include "sslam/solver/bundle/bundle_graph.hpp"
+#include "sslam/solver/least_squares/positive_inverse.hpp"
 
 namespace sslam {
 

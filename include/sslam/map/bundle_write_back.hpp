@@ -12,7 +12,7 @@
 #include "sslam/residual/line_reprojection.hpp"
 #include "sslam/residual/point_on_plane.hpp"
 #include "sslam/residual/point_reprojection.hpp"
-#include "sslam/solver/bundle_ties.hpp"
+#include "sslam/solver/bundle/bundle_ties.hpp"
 
 namespace sslam {
 

@@ -9,7 +9,7 @@
 #include "sslam/core/median.hpp"
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/map/map.hpp"
-#include "sslam/solver/pose_graph.hpp"
+#include "sslam/solver/bundle/pose_graph.hpp"
 
 namespace sslam {
 

@@ -34,10 +34,10 @@ struct Keyframe {
   std::optional<RotationObservation<S>> manhattan;
   std::vector<Neighbour> neighbours;  // covisibility, most shared first
   // Of a keyframe that was removed as redundant: who carries its place on. Nothing else is left of it.
-  KeyframeId heir = kNone;
-  SE3<S> cam_from_heir;
+  KeyframeId parent = kNone;
+  SE3<S> cam_from_parent;
 
-  [[nodiscard]] bool alive() const noexcept { return heir == kNone; }
+  [[nodiscard]] bool alive() const noexcept { return parent == kNone; }
 };
 
 }  // namespace sslam

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sslam/map/map.hpp"
-#include "sslam/solver/positive_inverse.hpp"
+#include "sslam/solver/least_squares/positive_inverse.hpp"
 
 namespace sslam {
 

@@ -129,9 +129,9 @@ class Map {
     erase_line(from);
   }
 
-  // Withdraws all that the keyframe sees and frees its features; what hangs on its pose now hangs on `heir`,
-  // which must be alive. Its id stays unused.
-  void erase_keyframe(KeyframeId id, KeyframeId heir) {
+  // Withdraws all that the keyframe sees and frees its features; what hangs on its pose now hangs on
+  // `parent`, which must be alive. Its id stays unused.
+  void erase_keyframe(KeyframeId id, KeyframeId parent) {
     const auto forget_all = [&](std::vector<LandmarkId> seen, auto forget) {
       for (const LandmarkId landmark : seen)
         if (landmark != kNone) forget(landmark);
@@ -142,23 +142,23 @@ class Map {
     for (const Neighbour& n : kf.neighbours) set_neighbour(keyframes[index(n.keyframe)].neighbours, {id, 0});
     Keyframe<S> rest;
     rest.id = id;
-    rest.heir = heir;
-    rest.cam_from_heir = kf.cam_from_world * keyframes[index(heir)].cam_from_world.inverse();
+    rest.parent = parent;
+    rest.cam_from_parent = kf.cam_from_world * keyframes[index(parent)].cam_from_world.inverse();
     kf = std::move(rest);
   }
 
-  // The keyframe itself, or the heir that carries its place on.
-  [[nodiscard]] KeyframeId carrier(KeyframeId id) const noexcept {
-    while (!keyframes[index(id)].alive()) id = keyframes[index(id)].heir;
+  // The keyframe itself, or the parent that carries its place on.
+  [[nodiscard]] KeyframeId surviving(KeyframeId id) const noexcept {
+    while (!keyframes[index(id)].alive()) id = keyframes[index(id)].parent;
     return id;
   }
 
-  // cam_from_world of a keyframe, alive or carried on by its heirs.
+  // cam_from_world of a keyframe, alive or carried on by its parents.
   [[nodiscard]] SE3<S> pose(KeyframeId id) const noexcept {
-    SE3<S> cam_from_carrier;
-    for (; !keyframes[index(id)].alive(); id = keyframes[index(id)].heir)
-      cam_from_carrier = cam_from_carrier * keyframes[index(id)].cam_from_heir;
-    return cam_from_carrier * keyframes[index(id)].cam_from_world;
+    SE3<S> cam_from_survivor;
+    for (; !keyframes[index(id)].alive(); id = keyframes[index(id)].parent)
+      cam_from_survivor = cam_from_survivor * keyframes[index(id)].cam_from_parent;
+    return cam_from_survivor * keyframes[index(id)].cam_from_world;
   }
 
   // Counts anew which keyframes share landmarks with this one, on both sides.

@@ -5,7 +5,7 @@
 #include <concepts>
 
 #include "sslam/map/bundle_write_back.hpp"
-#include "sslam/solver/bundle_solver.hpp"
+#include "sslam/solver/bundle/bundle_solver.hpp"
 
 namespace sslam {
 

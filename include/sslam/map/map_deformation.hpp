@@ -44,15 +44,15 @@ template <Scalar S>
 }
 
 // new_from_old[k], in the world, for each keyframe that is alive. A landmark follows the first keyframe that
-// observes it, a plane the mean of its members; the place of a removed keyframe follows its heir, and its
-// entry in new_from_old becomes the heir's.
+// observes it, a plane the mean of its members; the place of a removed keyframe follows its parent, and its
+// entry in new_from_old becomes the parent's.
 template <Scalar S>
 void deform(Map<S>& map, std::span<Sim3<S>> new_from_old) {
   const auto index = [](std::int32_t id) { return Map<S>::index(id); };
   for (Keyframe<S>& kf : map.keyframes) {
-    const Sim3<S>& moved = new_from_old[index(kf.id)] = new_from_old[index(map.carrier(kf.id))];
+    const Sim3<S>& moved = new_from_old[index(kf.id)] = new_from_old[index(map.surviving(kf.id))];
     if (!kf.alive()) {
-      kf.cam_from_heir.translation *= moved.scale;
+      kf.cam_from_parent.translation *= moved.scale;
       continue;
     }
     kf.cam_from_world = carried(moved, kf.cam_from_world);

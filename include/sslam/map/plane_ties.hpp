@@ -7,7 +7,7 @@
 
 #include "sslam/core/median.hpp"
 #include "sslam/map/map.hpp"
-#include "sslam/solver/bundle_graph.hpp"
+#include "sslam/solver/bundle/bundle_graph.hpp"
 
 namespace sslam {
 

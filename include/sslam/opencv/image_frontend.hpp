@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/line_extractor.hpp"
-#include "sslam/opencv/no_normals.hpp"
-#include "sslam/opencv/normal_source.hpp"
-#include "sslam/opencv/orb_extractor.hpp"
+#include "sslam/opencv/camera/undistorter.hpp"
+#include "sslam/opencv/lines/line_extractor.hpp"
+#include "sslam/opencv/normals/no_normals.hpp"
+#include "sslam/opencv/normals/normal_source.hpp"
+#include "sslam/opencv/points/orb_extractor.hpp"
 #include "sslam/opencv/side_thread.hpp"
-#include "sslam/opencv/undistorter.hpp"
 
 namespace sslam {
 

@@ -5,10 +5,10 @@
 
 #include <utility>
 
-#include "sslam/track/atlas.hpp"
-#include "sslam/track/backfill.hpp"
 #include "sslam/track/pose_tracking.hpp"
-#include "sslam/track/upkeep.hpp"
+#include "sslam/track/upkeep/immediate_upkeep.hpp"
+#include "sslam/track/worlds/atlas.hpp"
+#include "sslam/track/worlds/backfill.hpp"
 
 namespace sslam {
 
@@ -166,8 +166,8 @@ class Pipeline : public PoseTracking<S, Rotation, Translation, Fallback, Refinem
     return world_.map.keyframes[world_.map.index(world_.cursor.reference())];
   }
 
-  void join(World<S> known, const Loop<S>& meeting, TrackResult<S>& result) {
-    const MapJoint<S> joint = known.take_in(std::move(world_), meeting, loops);
+  void join(World<S> known, const Loop<S>& place, TrackResult<S>& result) {
+    const MapJoint<S> joint = known.take_in(std::move(world_), place, loops);
     world_ = std::move(known);
     for (TrackedFrame<S>& frame : frames_.all()) {
       joint.shift.apply_to_matches(frame);
@@ -179,7 +179,7 @@ class Pipeline : public PoseTracking<S, Rotation, Translation, Fallback, Refinem
     rotation.reset(world_.map.world_from_manhattan);
     trial = world_.trial;
     trial.end_loss();
-    atlas.forget_meetings();
+    atlas.forget_place_matches();
     result.maps_joined = true;
   }
 
@@ -266,7 +266,7 @@ class Pipeline : public PoseTracking<S, Rotation, Translation, Fallback, Refinem
     loops.forget();
     motion.stop();
     backfill.leave_world();
-    atlas.forget_meetings();
+    atlas.forget_place_matches();
   }
 
   World<S> world_;

@@ -5,12 +5,12 @@
 
 #include <optional>
 
-#include "sslam/track/concepts.hpp"
-#include "sslam/track/frame_history.hpp"
-#include "sslam/track/motion_model.hpp"
-#include "sslam/track/relocalisation.hpp"
-#include "sslam/track/stage_timer.hpp"
-#include "sslam/track/world.hpp"
+#include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/contract/stage_timer.hpp"
+#include "sslam/track/localise/frame_history.hpp"
+#include "sslam/track/localise/motion_model.hpp"
+#include "sslam/track/localise/relocalisation.hpp"
+#include "sslam/track/worlds/world.hpp"
 
 namespace sslam {
 

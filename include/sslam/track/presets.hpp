@@ -3,16 +3,16 @@
 #pragma once
 
 #include "sslam/map/map_adjustment.hpp"
-#include "sslam/solver/bundle_solver.hpp"
-#include "sslam/track/fallback.hpp"
-#include "sslam/track/initialisation.hpp"
-#include "sslam/track/keyframe_choice.hpp"
-#include "sslam/track/loop_closing.hpp"
-#include "sslam/track/mapping.hpp"
+#include "sslam/solver/bundle/bundle_solver.hpp"
+#include "sslam/track/localise/fallback.hpp"
+#include "sslam/track/localise/refinement.hpp"
+#include "sslam/track/localise/rotation.hpp"
+#include "sslam/track/localise/translation.hpp"
+#include "sslam/track/loops/loop_closing.hpp"
+#include "sslam/track/mapping/initialisation.hpp"
+#include "sslam/track/mapping/keyframe_choice.hpp"
+#include "sslam/track/mapping/mapping.hpp"
 #include "sslam/track/pipeline.hpp"
-#include "sslam/track/refinement.hpp"
-#include "sslam/track/rotation.hpp"
-#include "sslam/track/translation.hpp"
 
 namespace sslam::presets {
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/input/frame_stream.hpp"
+
+#include <utility>
+
+namespace sslam::cli {
+
+FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
+    : dataset_(dataset), settings_(std::move(settings)), reader_(dataset) {
+  frontend_.camera = settings_.camera;
+  frontend_.normals = std::move(settings_.normals);
+  producer_ = std::thread([this] { produce(); });
+}
+
+FrameStream::~FrameStream() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  producer_.join();
+}
+
+bool FrameStream::next(ExtractedFrame& out) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !ready_.empty() || finished_; });
+  if (ready_.empty()) {
+    if (failure_) std::rethrow_exception(failure_);
+    return false;
+  }
+  std::swap(out, ready_.front());
+  spare_.push_back(std::move(ready_.front()));
+  ready_.pop_front();
+  changed_.notify_all();
+  return true;
+}
+
+void FrameStream::produce() {
+  try {
+    for (const io::FrameEntry& entry : dataset_.frames) {
+      ExtractedFrame frame;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return ready_.size() < kAhead || stop_; });
+        if (stop_ || !wait_until_due(lock, entry)) return;
+        if (!spare_.empty()) {
+          frame = std::move(spare_.back());
+          spare_.pop_back();
+        }
+      }
+      fill(entry, frame);
+      const std::lock_guard lock(mutex_);
+      ready_.push_back(std::move(frame));
+      changed_.notify_all();
+    }
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  const std::lock_guard lock(mutex_);
+  finished_ = true;
+  changed_.notify_all();
+}
+
+// A frame that finds no room comes late: none is dropped. False: the stream is to stop.
+bool FrameStream::wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry) {
+  if (settings_.pace == 0) return true;
+  const double since = (entry.stamp - dataset_.frames.front().stamp) * settings_.pace;
+  const auto due = start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since));
+  return !changed_.wait_until(lock, due, [&] { return stop_; });
+}
+
+void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
+  out.image = reader_.label(entry);
+  out.warning.clear();
+  ImageInput input;
+  input.index = entry.index;
+  input.stamp = entry.stamp;
+  input.name = reader_.stem(entry);
+  std::string why;
+  input.image = reader_.read(entry, why);
+  if (!input.image.empty()) read_depth(entry, input, out);
+  out.report = frontend_.process(input, out.frame);
+  out.usable = out.report.image == ImageStatus::kOk;
+  if (!out.usable) {
+    if (why.empty()) why = entry.image + ": " + name(out.report.image);
+    out.warning = why + "; frame skipped";
+    return;
+  }
+  if (settings_.keep_pictures) keep_pictures(input, out);
+  if (!settings_.use_points) out.frame.points.clear();
+  if (!settings_.use_lines) out.frame.lines.clear();
+  // A view without planes is no fault of the input: the run's figures count it, and nobody is warned.
+  const bool fine =
+      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
+  if (!fine && out.warning.empty())
+    out.warning = entry.image + ": " + name(out.report.normals) + "; lines alone for this frame";
+}
+
+void FrameStream::keep_pictures(const ImageInput& input, ExtractedFrame& out) const {
+  out.picture = input.image;
+  const bool seen =
+      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
+  out.normal_picture = seen ? frontend_.normals.small_picture() : cv::Mat();
+}
+
+void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {
+  if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(frontend_.normals.source)) return;
+  input.depth_factor = settings_.depth_factor;
+  std::string why;
+  input.depth = load_depth(entry.depth, dataset_.layout, why);
+  if (input.depth.empty()) out.warning = why + "; lines alone for this frame";
+}
+
+}  // namespace sslam::cli

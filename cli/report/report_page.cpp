@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/report/report_page.hpp"
+
+namespace sslam::cli {
+namespace {
+
+const unsigned char kPage[] = {
+#include "report_page.inc"
+};
+
+}  // namespace
+
+ReportPage report_page() {
+  const std::string_view page(reinterpret_cast<const char*>(kPage), sizeof kPage);
+  constexpr std::string_view kData = "@DATA@", kViews = "@VIEWS@";
+  const std::size_t data = page.find(kData), views = page.find(kViews);
+  return {page.substr(0, data), page.substr(data + kData.size(), views - data - kData.size()),
+          page.substr(views + kViews.size())};
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the report shows of one frame: the image in small, its normals, and what the tracker saw in it.
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "sslam/geometry/camera.hpp"
+#include "sslam/track/contract/tracked_frame.hpp"
+
+namespace sslam::cli {
+
+struct FrameViewInput {
+  std::size_t row = 0;  // of frames.csv
+  const cv::Mat& picture;
+  const cv::Mat& normal_picture;  // empty: none
+  const Camera<double>& camera;   // of the picture
+  const std::vector<SO3<double>>& world_from_manhattan;
+};
+
+// Bytes, little-endian; cli/report/views.js reads them, in this order:
+//   u32 row; f32 width / height of the picture
+//   u32 size and JPEG of the picture; u32 size (0: none) and JPEG of the normals
+//   u16 points, u16 how many of them, the first, see the map; each u16 x, y
+//   u16 lines; each u16 x, y of both ends, i8 axis (-1: none), u8 whether it sees the map
+//   u16 normals; each i8 x, y, z in 1/127
+//   u8 whether axes follow; 9 f32, the axes of the room in the camera frame, one after the other
+// x and y of the picture run from 0 to 65535 over its width and height.
+[[nodiscard]] std::string encode_frame_view(const FrameViewInput& input, const TrackedFrame<double>& frame);
+
+}  // namespace sslam::cli

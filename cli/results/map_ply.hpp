@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map as map.ply: its points, and its lines and planes in the colours of the Manhattan axes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "sslam/io/maps/map_writer.hpp"
+#include "sslam/map/plane_extent.hpp"
+
+namespace sslam::cli {
+
+// Throws io::Error when it cannot be written.
+inline void write_map_ply(const std::filesystem::path& path, const Map<double>& map) {
+  constexpr std::array<io::Colour, 4> kAxisColours{
+      {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none
+  const auto colour_of = [&](std::int8_t axis) {
+    return kAxisColours[static_cast<std::size_t>(axis == kNone ? 3 : axis_in_frame(axis))];
+  };
+  std::vector<io::MapPoint> points;
+  for (const auto& point : map.points)
+    if (point.alive) points.push_back({point.position});
+  std::vector<io::MapLine> lines;
+  for (const auto& line : map.lines)
+    if (line.alive) lines.push_back({line.start, line.end, colour_of(line.axis)});
+  std::vector<io::MapFace> faces;
+  std::vector<PlaneExtent<double>> extents;
+  gather_extents(map, extents);
+  for (std::size_t p = 0; p < extents.size(); ++p)
+    if (map.planes[p].alive && extents[p].places > 0)
+      faces.push_back({extents[p].corners(map.planes[p].plane), colour_of(map.planes[p].axis)});
+  io::write_map(path, points, lines, faces);
+}
+
+}  // namespace sslam::cli

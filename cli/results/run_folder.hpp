@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of a run, read back: whatever of its files is there and sound.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "sslam/io/files/csv_reader.hpp"
+#include "sslam/io/trajectories/trajectory.hpp"
+#include "sslam/map/map.hpp"
+
+namespace sslam::cli {
+
+// Files that the report alone needs; the others are named where they are written.
+inline constexpr const char* kTruthFile = "groundtruth.txt";
+inline constexpr const char* kViewFile = "views.bin";
+inline constexpr const char* kReportFile = "report.html";
+
+struct RunFolder {
+  std::string name;  // of the folder, for people
+  nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
+  io::CsvTable frames;
+  io::Trajectory trajectory, keyframes, truth;
+  Map<double> map;
+  std::vector<std::string> views;
+  std::vector<std::string> problems;  // a line each: a file that is missing, damaged or flawed
+};
+
+// For people, however its path is written.
+[[nodiscard]] std::string folder_name(const std::filesystem::path& folder);
+
+// Throws io::Error when `folder` is none, or holds neither frames.csv nor metrics.json in a readable state.
+[[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);
+
+}  // namespace sslam::cli

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/results/run_report.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/version.hpp>
+#include <optional>
+
+#include "cli/results/eval_report.hpp"
+#include "cli/results/frame_table.hpp"
+#include "cli/results/map_figures.hpp"
+#include "cli/results/map_ply.hpp"
+#include "cli/results/run_folder.hpp"
+#include "cli/results/truth_source.hpp"
+#include "cli/results/view_file.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/io/evaluation/evaluation.hpp"
+#include "sslam/io/files/csv_writer.hpp"
+#include "sslam/io/maps/map_file.hpp"
+#include "sslam/io/plots/comparison_view.hpp"
+#include "sslam/io/plots/svg_plot.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void write_frames(const fs::path& path, const RunOutcome& outcome) {
+  io::CsvWriter csv(path, frame_columns());
+  for (const FrameRecord& frame : outcome.frames) csv.row(frame_cells(frame));
+  csv.commit();
+}
+
+// The p-quantile by nearest rank; 0 of nothing.
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+Json times_json(const RunOutcome& outcome) {
+  std::vector<double> frame, extraction, tracking;
+  for (const FrameRecord& f : outcome.frames) {
+    frame.push_back(f.frame_ms());
+    extraction.push_back(f.extraction_ms);
+    tracking.push_back(f.tracking_ms);
+  }
+  const auto quantiles = [](const std::vector<double>& v) {
+    return Json{{"median", quantile(v, 0.5)}, {"p95", quantile(v, 0.95)}, {"max", quantile(v, 1.0)}};
+  };
+  const double rate =
+      outcome.wall_seconds > 0 ? static_cast<double>(outcome.frames.size()) / outcome.wall_seconds : 0;
+  return {{"frames_per_second", rate},
+          {"wall_seconds", outcome.wall_seconds},
+          {"frame_ms", quantiles(frame)},
+          {"extraction_ms", quantiles(extraction)},
+          {"tracking_ms", quantiles(tracking)}};
+}
+
+std::size_t count_frames(const RunOutcome& outcome, bool TrackResult<double>::*mark) {
+  return static_cast<std::size_t>(
+      std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                    [mark](const FrameRecord& frame) { return frame.result.*mark; }));
+}
+std::size_t count_loops(const RunOutcome& outcome) {
+  return count_frames(outcome, &TrackResult<double>::loop_closed);
+}
+std::size_t count_joints(const RunOutcome& outcome) {
+  return count_frames(outcome, &TrackResult<double>::maps_joined);
+}
+
+Json states_json(const RunOutcome& outcome) {
+  Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"lost", 0}};
+  for (const FrameRecord& f : outcome.frames)
+    states[name(f.result.state)] = states[name(f.result.state)].get<int>() + 1;
+  return states;
+}
+
+std::size_t count_normals(const RunOutcome& outcome, NormalStatus status) {
+  return static_cast<std::size_t>(
+      std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                    [status](const FrameRecord& frame) { return frame.normal_status == status; }));
+}
+
+Json versions_json() {
+  const std::string eigen = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                            "." + std::to_string(EIGEN_MINOR_VERSION);
+  return {{"sslam", SSLAM_VERSION}, {"eigen", eigen}, {"opencv", CV_VERSION}, {"compiler", __VERSION__}};
+}
+
+std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::Trajectory& trajectory) {
+  if (context.dataset.ground_truth.empty() || trajectory.size() < 3) return std::nullopt;
+  io::EvaluationOptions options;
+  options.seconds_per_stamp = context.dataset.seconds_per_stamp;
+  for (const io::FrameEntry& frame : context.dataset.frames) options.frame_stamps.push_back(frame.stamp);
+  try {
+    return io::evaluate(context.dataset.ground_truth, trajectory, options);
+  } catch (const io::Error& error) {
+    print_warning(std::string("no figures against ground truth: ") + error.what());
+    return std::nullopt;
+  }
+}
+
+// Each pose as it was reported when its frame was tracked. Those in other worlds, as of a map that was given
+// up or joined with this one later, have nothing in common with them.
+io::Trajectory live_trajectory(const RunOutcome& outcome) {
+  io::Trajectory live;
+  live.reserve(outcome.frames.size());
+  for (const FrameRecord& frame : outcome.frames)
+    if (frame.result.has_pose() && frame.result.world == outcome.world)
+      live.push_back({frame.result.stamp, frame.result.cam_from_world.inverse()});
+  return live;
+}
+
+void write_top_view_file(const fs::path& path, const RunContext& context, const RunOutcome& outcome,
+                         const std::optional<io::Evaluation>& evaluation) {
+  if (outcome.trajectory.empty()) {
+    std::error_code ignored;
+    fs::remove(path, ignored);  // of an earlier run into this folder
+    return;
+  }
+  Sim3<double> truth_from_estimate;
+  if (evaluation) truth_from_estimate = evaluation->truth_from_estimate;
+  io::TopView view = io::comparison_view(context.dataset.ground_truth, outcome.trajectory,
+                                         truth_from_estimate, context.dataset.frames.front().stamp,
+                                         context.dataset.frames.back().stamp, context.settings.dataset);
+  if (!evaluation) view.unit = "map units";
+  for (const auto& point : outcome.map.points)
+    if (point.alive) view.points.push_back(truth_from_estimate * point.position);
+  io::write_top_view(path, view);
+}
+
+void print_summary(const RunContext& context, const RunOutcome& outcome,
+                   const std::optional<io::Evaluation>& evaluation) {
+  const Json times = times_json(outcome);
+  const std::size_t total = context.dataset.frames.size();
+  std::printf("tracked          %zu of %zu frames (%.1f %%), %zu keyframes, %zu points, %zu lines\n",
+              outcome.trajectory.size(), total,
+              100.0 * static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total),
+              outcome.keyframes.size(), count_alive(outcome.map.points), count_alive(outcome.map.lines));
+  std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
+              times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
+              times["frame_ms"]["p95"].get<double>());
+  if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
+    std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
+                outcome.frames.size());
+  if (outcome.keyframes_not_made > 0)
+    std::printf("mapping          behind in %d frames that should have become keyframes\n",
+                outcome.keyframes_not_made);
+  if (const std::size_t loops = count_loops(outcome); loops > 0) std::printf("loops closed     %zu\n", loops);
+  if (const std::size_t joints = count_joints(outcome); joints > 0)
+    std::printf("maps joined      %zu\n", joints);
+  if (outcome.maps_apart > 0)
+    std::printf(
+        "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
+        outcome.maps_apart, outcome.frames_apart);
+  if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
+  std::printf("written to       %s\n", context.settings.out.c_str());
+}
+
+}  // namespace
+
+nlohmann::ordered_json settings_json(const RunContext& context) {
+  const RunSettings& s = context.settings;
+  const Pinhole<double>& pinhole = context.camera.pinhole;
+  const RadTan<double>& lens = context.camera.distortion;
+  return {{"dataset", s.dataset},
+          {"camera", context.camera_source},
+          {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
+          {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
+          {"image_size", {context.camera.width, context.camera.height}},
+          {"seconds_per_stamp", context.dataset.seconds_per_stamp},
+          {"normals", s.normals},
+          {"preset", s.preset},
+          {"map", s.map},
+          {"start", s.slice.start},
+          {"end", s.slice.end},
+          {"stride", s.slice.stride},
+          {"seed", s.seed},
+          {"live", s.live}};
+}
+
+void write_run(const RunContext& context, const RunOutcome& outcome) {
+  const fs::path out = context.settings.out;
+  io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
+  const io::Trajectory live = live_trajectory(outcome);
+  io::write_trajectory(out / "trajectory_live.txt", live);
+  io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
+  write_map_ply(out / "map.ply", outcome.map);
+  // What an earlier run in this folder has left must not pass for this one's.
+  for (const char* name : {"map.sslam", kTruthFile, kViewFile, kReportFile}) fs::remove(out / name);
+  if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
+  if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
+      !truth.empty())
+    io::write_trajectory(out / kTruthFile, truth);
+  if (!outcome.views.empty()) write_views(out / kViewFile, outcome.views);
+  write_frames(out / "frames.csv", outcome);
+  const auto evaluation = evaluate_run(context, outcome.trajectory);
+  const auto live_evaluation = evaluate_run(context, live);
+  Json metrics = {{"frames", context.dataset.frames.size()},
+                  {"tracked", outcome.trajectory.size()},
+                  {"tracked_live", live.size()},
+                  {"share_tracked", static_cast<double>(outcome.trajectory.size()) /
+                                        static_cast<double>(context.dataset.frames.size())},
+                  {"interrupted", outcome.interrupted},
+                  {"keyframes", outcome.keyframes.size()},
+                  {"keyframes_not_made", outcome.keyframes_not_made},
+                  {"points", count_alive(outcome.map.points)},
+                  {"lines", count_alive(outcome.map.lines)},
+                  {"planes", count_alive(outcome.map.planes)},
+                  {"manhattan_frames", outcome.map.world_from_manhattan.size()},
+                  {"loops", count_loops(outcome)},
+                  {"world", outcome.world},
+                  {"maps_joined", count_joints(outcome)},
+                  {"maps_apart", outcome.maps_apart},
+                  {"frames_apart", outcome.frames_apart},
+                  {"states", states_json(outcome)},
+                  {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
+                  {"times", times_json(outcome)}};
+  if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
+  if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);
+  metrics["warnings"] = outcome.warnings;
+  Json settings = settings_json(context), parameters;
+  for (const ParameterValue& p : outcome.parameters) parameters[p.name] = p.value;
+  settings["parameters"] = parameters;
+  metrics["settings"] = settings;
+  metrics["versions"] = versions_json();
+  write_json((out / "metrics.json").string(), metrics);
+  write_top_view_file(out / "topview.svg", context, outcome, evaluation);
+  print_summary(context, outcome, evaluation);
+}
+
+}  // namespace sslam::cli

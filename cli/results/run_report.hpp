@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of a run: trajectories, map, per-frame table, metrics, top view.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "cli/results/frame_record.hpp"
+#include "cli/run.hpp"
+#include "sslam/geometry/camera.hpp"
+#include "sslam/io/datasets/dataset.hpp"
+
+namespace sslam::cli {
+
+// What the report says about the run besides its outcome.
+struct RunContext {
+  const RunSettings& settings;
+  const io::Dataset& dataset;
+  std::string camera_source;
+  Camera<double> camera;
+};
+
+// What was asked for, as metrics.json has it; the parameters come from the outcome.
+[[nodiscard]] nlohmann::ordered_json settings_json(const RunContext& context);
+
+// Writes all files into settings.out and prints the summary. Throws io::Error when a file cannot be written.
+void write_run(const RunContext& context, const RunOutcome& outcome);
+
+}  // namespace sslam::cli

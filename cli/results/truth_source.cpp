@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/results/truth_source.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "sslam/io/datasets/open_dataset.hpp"
+
+namespace sslam::cli {
+namespace {
+
+TruthSource from_folder(const std::filesystem::path& folder, FileAxes axes) {
+  io::Dataset dataset = io::open_dataset(folder);
+  if (dataset.ground_truth.empty()) throw io::Error(folder.string() + ": this dataset has no ground truth");
+  TruthSource source;
+  source.trajectory = std::move(dataset.ground_truth);
+  source.seconds_per_stamp = dataset.seconds_per_stamp;
+  source.frame_stamps = io::frame_stamps(dataset);
+  source.warnings = std::move(dataset.warnings);
+  // The reader has turned ICL-NUIM's poses already.
+  const bool turned = dataset.layout == io::Layout::kIclNuim;
+  const bool wanted = axes == FileAxes::kAuto ? turned : axes == FileAxes::kYUp;
+  if (wanted != turned) io::mirror_y(source.trajectory);
+  source.mirrored = wanted;
+  return source;
+}
+
+// The dataset whose ground truth the file is; nothing for a file that stands alone.
+std::optional<io::Dataset> dataset_around(const std::filesystem::path& file) {
+  const std::filesystem::path folder =
+      file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  if (file.filename() != "groundtruth.txt" && file.extension() != ".freiburg") return std::nullopt;
+  if (!io::is_tum(folder) && !io::has_numbered_images(folder)) return std::nullopt;
+  try {
+    return io::open_dataset(folder);
+  } catch (const io::Error&) {
+    return std::nullopt;  // a copy without its images still has a ground truth
+  }
+}
+
+}  // namespace
+
+TruthSource load_truth(const std::filesystem::path& path, FileAxes axes) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return from_folder(path, axes);
+  TruthSource source;
+  source.trajectory = io::read_trajectory(path, source.warnings);
+  const std::optional<io::Dataset> dataset = dataset_around(path);
+  const bool icl_nuim =
+      path.extension() == ".freiburg" || (dataset && dataset->layout == io::Layout::kIclNuim);
+  if (dataset) source.frame_stamps = io::frame_stamps(*dataset);
+  if (icl_nuim) source.seconds_per_stamp = 1 / io::kIclNuimFrameRate;
+  source.mirrored = axes == FileAxes::kAuto ? icl_nuim : axes == FileAxes::kYUp;
+  if (source.mirrored) io::mirror_y(source.trajectory);
+  return source;
+}
+
+io::Trajectory truth_during(const io::Dataset& dataset, const io::Trajectory& truth) {
+  io::Trajectory seen;
+  for (const io::StampedPose& pose : truth)
+    if (pose.stamp >= dataset.frames.front().stamp - io::kMaxStampDifference &&
+        pose.stamp <= dataset.frames.back().stamp + io::kMaxStampDifference)
+      seen.push_back(pose);
+  return seen;
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run/kernels.hpp"
+#include "cli/run/presets.hpp"
+#include "cli/run/track_sequence.hpp"
+
+namespace sslam::cli {
+
+RunOutcome run_paper(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
+  presets::Paper<double, WallTimer> pipeline;
+  return track_sequence(pipeline, stream, settings, progress);
+}
+
+}  // namespace sslam::cli

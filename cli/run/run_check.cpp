@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run/run_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "cli/input/image_file.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/files/text.hpp"
+
+namespace sslam::cli {
+namespace {
+
+ParameterValue parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto value =
+      equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
+  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
+  return {text.substr(0, equals), *value};
+}
+
+// Parameters of which one must stay below another, and what a run would else do without a word.
+struct Order {
+  std::string_view low, high, otherwise;
+};
+constexpr std::array<Order, 2> kOrders{{
+    {"rotation.squareness", "rotation.max_sigma", "no rotation would be trusted"},
+    {"rotation.narrowest_kernel", "rotation.widest_kernel", "the search could not narrow"},
+}};
+
+void check_orders(const std::vector<ParameterValue>& parameters) {
+  const auto find = [&](std::string_view name) {
+    return std::find_if(parameters.begin(), parameters.end(),
+                        [name](const ParameterValue& parameter) { return parameter.name == name; });
+  };
+  for (const Order& order : kOrders) {
+    const auto low = find(order.low), high = find(order.high);
+    if (low == parameters.end() || high == parameters.end() || low->value < high->value) continue;
+    char values[80];
+    std::snprintf(values, sizeof values, "%g is not below the %g of ", low->value, high->value);
+    throw io::Error("--set " + low->name + ": " + values + high->name + ": " + std::string(order.otherwise));
+  }
+}
+
+}  // namespace
+
+const Preset& find_preset(const std::string& wanted) {
+  std::string known;
+  for (const Preset& preset : kPresets) {
+    if (preset.name == wanted) return preset;
+    io::add_to_list(known, preset.name);
+  }
+  throw io::Error("--preset " + wanted + ": not known; use one of " + known);
+}
+
+io::Dataset open_run_dataset(const RunSettings& settings) {
+  io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
+  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
+  io::apply_slice(dataset, settings.slice);
+  print_warnings(dataset.warnings);
+  return dataset;
+}
+
+CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
+  CameraChoice choice = choose_camera(settings.camera, dataset);
+  Camera<double>& camera = choice.camera;
+  if (camera.width > 0 && camera.height > 0) return choice;
+  if (dataset.layout == io::Layout::kVideo) {
+    cv::VideoCapture video(dataset.root.string());
+    camera.width = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
+    camera.height = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
+    return choice;
+  }
+  std::string why;
+  const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
+  if (first.empty()) throw io::Error(why + "; the camera's size is not known without it");
+  camera.width = first.cols;
+  camera.height = first.rows;
+  return choice;
+}
+
+void check_live(const RunSettings& settings, const Preset& preset) {
+  if (!settings.live || preset.run_live != nullptr) return;
+  std::string able;
+  for (const Preset& p : kPresets)
+    if (p.run_live != nullptr) io::add_to_list(able, p.name);
+  throw io::Error("--live: not with --preset " + settings.preset + "; use one of " + able);
+}
+
+void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
+  if (settings.normals != "depth") return;
+  const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
+                               [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
+  if (!any)
+    throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
+  if (!(depth_factor > 0))
+    throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
+}
+
+std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
+  TrackSettings track;
+  for (const std::string& text : set) track.overrides.push_back(parse_override(text));
+  // A run over no frames refuses what a run over many would.
+  const io::Dataset nothing;
+  FrameStream stream(nothing, {});
+  Progress silent(0, Verbosity::kQuiet, "run");
+  check_orders(preset.run(stream, track, silent).parameters);
+  return std::move(track.overrides);
+}
+
+}  // namespace sslam::cli

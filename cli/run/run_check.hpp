@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can be wrong with the settings of a run, found before its first frame: `sslam run` checks itself,
+// `sslam batch` all of its runs. Everything here throws a std::exception with one line.
+#pragma once
+
+#include <string>
+
+#include "cli/input/camera_choice.hpp"
+#include "cli/input/normal_choice.hpp"
+#include "cli/run.hpp"
+#include "cli/run/presets.hpp"
+#include "cli/run/track_settings.hpp"
+
+namespace sslam::cli {
+
+[[nodiscard]] const Preset& find_preset(const std::string& wanted);
+
+// The frames that the settings ask for.
+[[nodiscard]] io::Dataset open_run_dataset(const RunSettings& settings);
+
+// The camera with its size: where its source leaves that out, the first image says it.
+[[nodiscard]] CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset);
+
+// Whether the preset has what --live asks for.
+void check_live(const RunSettings& settings, const Preset& preset);
+
+// Whether the dataset has what settings.normals need.
+void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
+
+// Each "stage.parameter=value", if the preset has all these parameters and they take these values.
+std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set);
+
+}  // namespace sslam::cli

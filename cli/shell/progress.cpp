@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/shell/progress.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cli/shell/messages.hpp"
+
+namespace sslam::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string counts(const TrackResult<double>& result) {
+  return std::to_string(result.point_inliers) + " points, " + std::to_string(result.line_inliers) + " lines";
+}
+
+// Cut to what the terminal shows in one line: a wrapped line cannot be written over.
+std::string fitting(std::string line) {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return line;
+  std::size_t end = std::min<std::size_t>(line.size(), size.ws_col - 1U);
+  while (end > 0 && end < line.size() && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
+  line.resize(end);
+  return line;
+}
+
+}  // namespace
+
+Progress::Progress(std::size_t total, Verbosity verbosity, std::string task)
+    : total_(total), verbosity_(verbosity), task_(std::move(task)), terminal_(isatty(STDERR_FILENO) != 0) {
+  if (verbosity_ == Verbosity::kJson) print_json({{"event", "start"}, {"task", task_}, {"total", total_}});
+}
+
+double Progress::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void Progress::show(const FrameRecord& frame) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  const TrackResult<double>& r = frame.result;
+  if (verbosity_ == Verbosity::kJson)
+    return print_json({{"event", "frame"},
+                       {"task", task_},
+                       {"done", done_},
+                       {"total", total_},
+                       {"index", r.index},
+                       {"stamp", r.stamp},
+                       {"state", name(r.state)},
+                       {"reason", name(r.reason)},
+                       {"point_inliers", r.point_inliers},
+                       {"line_inliers", r.line_inliers},
+                       {"keyframe", r.keyframe},
+                       {"frame_ms", frame.frame_ms()}});
+  if (verbosity_ == Verbosity::kVerbose) tell_event(frame);
+  char detail[160];
+  std::snprintf(detail, sizeof detail, "%-12s %3d points %3d lines  %s", name(r.state), r.point_inliers,
+                r.line_inliers, name(r.reason));
+  renew_line(detail);
+}
+
+void Progress::show(const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  if (verbosity_ == Verbosity::kJson)
+    return print_json(
+        {{"event", "progress"}, {"task", task_}, {"done", done_}, {"total", total_}, {"detail", detail}});
+  renew_line(detail);
+}
+
+void Progress::tell_event(const FrameRecord& frame) {
+  const TrackResult<double>& r = frame.result;
+  const bool changed = last_state_ != r.state;
+  std::string text = "frame " + std::to_string(r.index) + ": ";
+  if (changed && last_state_) text += std::string(name(*last_state_)) + " -> ";
+  last_state_ = r.state;
+  if (!changed && !r.keyframe) return;
+  text += name(r.state);
+  if (r.keyframe) text += ", keyframe";
+  if (r.reason != Reason::kFine) text += std::string(", ") + name(r.reason);
+  if (r.has_pose()) text += " (" + counts(r) + ")";
+  clear_line();
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void Progress::renew_line(const std::string& detail) {
+  if (verbosity_ == Verbosity::kQuiet) return;
+  const auto now = Clock::now();
+  const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
+  if (now - shown_ < interval && done_ != total_) return;
+  shown_ = now;
+  print_line(detail);
+}
+
+void Progress::print_line(const std::string& detail) {
+  const double elapsed = seconds();
+  const double rate = elapsed > 0 ? static_cast<double>(done_) / elapsed : 0;
+  constexpr std::size_t kWidth = 24;
+  const std::size_t filled = total_ > 0 ? std::min(kWidth, done_ * kWidth / total_) : kWidth;
+  const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
+  char head[160];
+  std::snprintf(head, sizeof head, "%zu/%zu [%s] %5.1f frames/s  ", done_, total_, bar.c_str(), rate);
+  const std::string line = head + detail;
+  if (terminal_)
+    std::fprintf(stderr, "\r%s\033[K", fitting(line).c_str());
+  else
+    std::fprintf(stderr, "%s\n", line.c_str());
+  std::fflush(stderr);
+  open_line_ = terminal_;
+}
+
+void Progress::clear_line() {
+  if (open_line_) std::fputs("\r\033[K", stderr);
+  open_line_ = false;
+}
+
+void Progress::finish() {
+  const std::lock_guard lock(mutex_);
+  if (verbosity_ == Verbosity::kJson)
+    print_json(
+        {{"event", "end"}, {"task", task_}, {"done", done_}, {"total", total_}, {"seconds", seconds()}});
+  if (open_line_) std::fputc('\n', stderr);
+  open_line_ = false;
+}
+
+}  // namespace sslam::cli

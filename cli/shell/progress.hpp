@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Progress on standard error: a bar on a terminal, a plain line now and then elsewhere, or a JSON object for
+// each step. Threads may share one.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "cli/results/frame_record.hpp"
+
+namespace sslam::cli {
+
+enum class Verbosity {
+  kQuiet,    // nothing
+  kNormal,   // the bar, or a line now and then
+  kVerbose,  // also a line for each change of state, loss and keyframe
+  kJson,     // a JSON object a line, for programs; docs/automation.md says which
+};
+
+class Progress {
+ public:
+  // task: what is in progress, for programs, such as "run".
+  Progress(std::size_t total, Verbosity verbosity, std::string task);
+
+  void show(const FrameRecord& frame);
+  void show(const std::string& detail);  // what stands behind the count and the rate
+  void finish();                         // leaves the last line standing
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void tell_event(const FrameRecord& frame);
+  void renew_line(const std::string& detail);
+  void print_line(const std::string& detail);
+  void clear_line();
+  [[nodiscard]] double seconds() const;
+
+  std::size_t total_;
+  std::size_t done_ = 0;
+  Verbosity verbosity_;
+  std::string task_;
+  bool terminal_;
+  bool open_line_ = false;
+  std::optional<State> last_state_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_{};
+  std::mutex mutex_;
+};
+
+}  // namespace sslam::cli

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/synth/synth_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "cli/input/camera_yaml.hpp"
+#include "cli/input/image_file.hpp"
+#include "cli/input/normal_files.hpp"
+#include "cli/synth/synth_names.hpp"
+#include "sslam/io/files/error.hpp"
+#include "sslam/io/files/output_file.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string numbered(const char* folder, int number, const std::string& extension) {
+  return cv::format("%s/%06d.%s", folder, number, extension.c_str());
+}
+
+void write_camera(const SynthSettings& settings, const Pinhole<double>& pinhole) {
+  const std::string text =
+      camera_yaml({{pinhole, {}, settings.width, settings.height}, kDepthFactor, settings.rate}, "");
+  io::write_text(fs::path(settings.folder) / "camera.yaml", text);
+}
+
+void write_manifest(const SynthSettings& s, std::size_t frames) {
+  std::string text =
+      "# Made by `sslam synth`. Depth: 16 bits, 5000 a metre, 0 where nothing or beyond 13.1 m.\n"
+      "# Normals: 8 bits, (x, y, z) = 2 v / 255 - 1 for red, green, blue; camera frame (x right, y down, z "
+      "forward),\n"
+      "# towards the camera; (0, 0, 0) where nothing is seen. Ground truth: world with z up, metres.\n";
+  text += cv::format("frames = %zu\nseed = %llu\n", frames, static_cast<unsigned long long>(s.house.seed));
+  text += "texture = \"" + name_of(kRichnessNames, s.house.richness) + "\"\n";
+  text += "world = \"" + name_of(kWorldNames, s.house.world) + "\"\n";
+  text += "path = \"" + name_of(kPathNames, s.house.path) + "\"\n";
+  text += cv::format("rooms = %d\nspeed = %g\ntremor = %g\n", s.house.rooms, s.house.motion.speed,
+                     s.house.motion.tremor);
+  text += cv::format("fps = %g\nsize = \"%dx%d\"\nfocal = %g\n", s.rate, s.width, s.height, s.focal);
+  text += cv::format("noise = %g\nvignetting = %g\nblur = %g\nexposure = %g\n", s.sensor.noise,
+                     s.sensor.vignetting, s.blur, s.sensor.exposure_swing);
+  text += "image-format = \"" + s.image_format + "\"\n";
+  text += cv::format("no-depth = %s\nno-normals = %s\n", s.depth ? "false" : "true",
+                     s.normals ? "false" : "true");
+  io::write_text(fs::path(s.folder) / "synth.toml", text);
+}
+
+}  // namespace
+
+void prepare_synth_folder(const SynthSettings& settings) {
+  const fs::path folder = settings.folder;
+  std::error_code ignored;
+  if (fs::exists(folder / "rgb.txt", ignored) && !fs::exists(folder / "synth.toml", ignored)) {
+    throw io::Error(settings.folder +
+                    ": holds a data set that sslam synth did not make; choose another folder");
+  }
+  io::prepare_output_folder(folder);
+  for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt"})
+    fs::remove(folder / list, ignored);
+  io::prepare_output_folder(folder / "rgb");
+  if (settings.depth) io::prepare_output_folder(folder / "depth");
+  if (!settings.normals) return;
+  io::prepare_output_folder(folder / "normals");
+  write_normal_encoding(folder / "normals", 0);  // exact
+}
+
+void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std::vector<std::uint8_t>& rgb) {
+  const cv::Mat colour(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data()));
+  cv::Mat bgr;
+  cv::cvtColor(colour, bgr, cv::COLOR_RGB2BGR);
+  const bool png = settings_.image_format == "png";
+  write_image(fs::path(settings_.folder) / numbered("rgb", number, settings_.image_format), bgr,
+              png ? fast_png() : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95});
+  if (settings_.depth) write_depth(numbered("depth", number, "png"), frame);
+  if (settings_.normals) write_normals(numbered("normals", number, "png"), frame);
+}
+
+void FrameWriter::write_depth(const std::string& name, const synth::RenderedFrame& frame) {
+  constexpr float kMost = 65535.0f;
+  cv::Mat depth(frame.height, frame.width, CV_16UC1);
+  std::uint16_t* out = depth.ptr<std::uint16_t>();
+  for (const float inverse : frame.inverse_depth) {
+    const float units = inverse > 0.0f ? static_cast<float>(kDepthFactor) / inverse + 0.5f : 0.0f;
+    *out++ = units <= kMost ? static_cast<std::uint16_t>(units) : std::uint16_t{0};
+  }
+  write_image(fs::path(settings_.folder) / name, depth, fast_png());
+}
+
+void FrameWriter::write_normals(const std::string& name, const synth::RenderedFrame& frame) {
+  std::vector<cv::Vec3b> encoded;
+  for (const Vec3<float>& n : frame.normals) encoded.push_back(encode_normal({n.x(), n.y(), n.z()}));
+  cv::Mat image(frame.height, frame.width, CV_8UC3);
+  cv::Vec3b* out = image.ptr<cv::Vec3b>();
+  for (const std::int32_t id : frame.surface)
+    *out++ = id >= 0 ? encoded[static_cast<std::size_t>(id)] : cv::Vec3b();
+  write_image(fs::path(settings_.folder) / name, image, fast_png());
+}
+
+void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole,
+                       const io::Trajectory& truth) {
+  const fs::path folder = settings.folder;
+  const auto list = [&](const char* name, const std::string& extension) {
+    std::string text = "# timestamp filename\n";
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      text += cv::format("%.6f ", truth[i].stamp) + numbered(name, static_cast<int>(i), extension) + "\n";
+    io::write_text(folder / (std::string(name) + ".txt"), text);
+  };
+  write_camera(settings, pinhole);
+  write_manifest(settings, truth.size());
+  io::write_trajectory(folder / "groundtruth.txt", truth);
+  if (settings.depth) list("depth", "png");
+  if (settings.normals) list("normals", "png");
+  list("rgb", settings.image_format);
+}
+
+}  // namespace sslam::cli

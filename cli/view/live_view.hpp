@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam run --view`: the report's page while the run goes on, then the report.
+#pragma once
+
+#include <string>
+
+#include "cli/results/run_report.hpp"
+#include "cli/view/live_run.hpp"
+#include "cli/view/view_server.hpp"
+
+namespace sslam::cli {
+
+class LiveView {
+ public:
+  // Says where to look. Throws io::Error when the port cannot be had.
+  explicit LiveView(const RunContext& context);
+
+  void add(const WatchedFrame& seen) { run_.add(seen); }
+
+  // The run is over: shows its report until Ctrl-C.
+  void show(std::string report);
+
+ private:
+  LiveRun run_;
+  ViewServer server_;
+};
+
+}  // namespace sslam::cli

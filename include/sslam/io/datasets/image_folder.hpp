@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A folder of images, or a glob such as DIR/left_*.png: frames in the natural order of their names.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/files/files.hpp"
+#include "sslam/io/files/text.hpp"
+
+namespace sslam::io {
+
+inline constexpr double kDefaultFrameRate = 30;
+
+// Names such as 1341836537.655662.png are stamps in seconds; plain numbers are counters, not stamps.
+[[nodiscard]] inline bool is_stamp_name(const std::filesystem::path& image) {
+  const std::string stem = image.stem().string();
+  const std::size_t point = stem.find('.');
+  return point != std::string::npos && all_digits(stem.substr(0, point)) &&
+         all_digits(stem.substr(point + 1));
+}
+
+// Stamps come from the names when each is one, else from the position and the frame rate.
+[[nodiscard]] inline Dataset frames_from_images(const std::filesystem::path& root,
+                                                const std::vector<std::filesystem::path>& images,
+                                                double frame_rate) {
+  Dataset dataset;
+  dataset.layout = Layout::kImages;
+  dataset.root = root;
+  const bool stamped = std::all_of(images.begin(), images.end(), is_stamp_name);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    FrameEntry frame;
+    frame.image = images[i].string();
+    frame.stamp = stamped ? parse_number<double>(images[i].stem().string()).value_or(0)
+                          : static_cast<double>(i) / frame_rate;
+    dataset.frames.push_back(std::move(frame));
+  }
+  drop_bad_frames(dataset, root);
+  return dataset;
+}
+
+[[nodiscard]] inline bool is_image_folder(const std::filesystem::path& root) {
+  return !list_files(root, is_image_name).empty();
+}
+
+[[nodiscard]] inline Dataset read_image_folder(const std::filesystem::path& root,
+                                               double frame_rate = kDefaultFrameRate) {
+  const std::vector<std::filesystem::path> images = list_files(root, is_image_name);
+  if (images.empty()) throw Error(root.string() + ": holds no image (png, jpg, bmp, ppm, pgm, tif, webp)");
+  return frames_from_images(root, images, frame_rate);
+}
+
+// Wildcards * and ? in the last part of the path.
+[[nodiscard]] inline Dataset read_image_glob(const std::filesystem::path& glob,
+                                             double frame_rate = kDefaultFrameRate) {
+  const std::filesystem::path root = glob.has_parent_path() ? glob.parent_path() : std::filesystem::path(".");
+  if (has_wildcards(root.string()))
+    throw Error(glob.string() + ": wildcards are understood in the last part of the path only");
+  const std::string pattern = glob.filename().string();
+  const std::vector<std::filesystem::path> images =
+      list_files(root, [&pattern](const std::filesystem::path& name) {
+        return is_image_name(name) && matches_wildcards(name.string(), pattern);
+      });
+  if (images.empty()) throw Error(glob.string() + ": no image matches");
+  return frames_from_images(root, images, frame_rate);
+}
+
+}  // namespace sslam::io

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One door to all readers: tells the layout from what lies in the folder.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/icl_nuim.hpp"
+#include "sslam/io/datasets/image_folder.hpp"
+#include "sslam/io/datasets/seven_scenes.hpp"
+#include "sslam/io/datasets/tum.hpp"
+#include "sslam/io/datasets/video.hpp"
+#include "sslam/io/files/files.hpp"
+#include "sslam/io/files/text.hpp"
+
+namespace sslam::io {
+
+struct OpenOptions {
+  double frame_rate = kDefaultFrameRate;  // frames a second, for images whose names are no stamps
+};
+
+// What a folder can be, in the order in which it is tried.
+struct FolderLayout {
+  using Path = std::filesystem::path;
+  Layout layout;
+  std::string_view name;
+  std::string_view looks_for;
+  bool (*matches)(const Path& root);
+  Dataset (*read)(const Path& root, const OpenOptions& options);
+};
+
+inline constexpr std::array<FolderLayout, 4> kFolderLayouts{{
+    {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
+    {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_seven_scenes(root); }},
+    {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", has_numbered_images,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_icl_nuim(root); }},
+    {Layout::kImages, "folder of images", "*.png, *.jpg, ...", is_image_folder,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_image_folder(root, options.frame_rate);
+     }},
+}};
+
+[[nodiscard]] constexpr std::string_view name(Layout layout) noexcept {
+  for (const FolderLayout& known : kFolderLayouts) {
+    if (known.layout == layout) return known.name;
+  }
+  return "video";
+}
+
+[[nodiscard]] inline std::string describe_folder_layouts() {
+  std::string text;
+  for (const FolderLayout& known : kFolderLayouts) {
+    add_to_list(text, std::string(known.looks_for) + " (" + std::string(known.name) + ")");
+  }
+  return text;
+}
+
+// path: a folder in one of the layouts, a glob of images, or a video. Throws Error when it is none of them.
+[[nodiscard]] inline Dataset open_dataset(const std::filesystem::path& path,
+                                          const OpenOptions& options = {}) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) {
+    if (has_wildcards(path.string())) return read_image_glob(path, options.frame_rate);
+    throw Error(path.string() + ": no such file or folder");
+  }
+  if (!std::filesystem::is_directory(status)) {
+    if (is_video_name(path)) return read_video(path);
+    throw Error(path.string() + ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...)");
+  }
+  for (const FolderLayout& known : kFolderLayouts) {
+    if (known.matches(path)) return known.read(path, options);
+  }
+  const bool empty = std::filesystem::is_empty(path, ignored);
+  throw Error(path.string() + (empty ? ": the folder is empty" : ": no dataset here") + "; looked for " +
+              describe_folder_layouts());
+}
+
+}  // namespace sslam::io

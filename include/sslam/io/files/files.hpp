@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names of files: which are images or videos, natural order, wildcards.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sslam/io/files/error.hpp"
+
+namespace sslam::io {
+
+[[nodiscard]] inline std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+[[nodiscard]] inline bool has_extension(const std::filesystem::path& path,
+                                        std::span<const std::string_view> extensions) {
+  const std::string own = lower_case(path.extension().string());
+  return std::find(extensions.begin(), extensions.end(), own) != extensions.end();
+}
+
+[[nodiscard]] inline bool is_image_name(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 9> kImages{".png", ".jpg", ".jpeg", ".bmp", ".ppm",
+                                                    ".pgm", ".tif", ".tiff", ".webp"};
+  return has_extension(path, kImages);
+}
+
+[[nodiscard]] inline bool is_video_name(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 10> kVideos{".mp4", ".avi",  ".mkv", ".mov", ".webm",
+                                                     ".m4v", ".mpeg", ".mpg", ".ogv", ".wmv"};
+  return has_extension(path, kVideos);
+}
+
+[[nodiscard]] inline bool all_digits(std::string_view text) noexcept {
+  return !text.empty() &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// Natural order: runs of digits compare as numbers, so 9.png comes before 10.png.
+[[nodiscard]] inline bool natural_less(std::string_view a, std::string_view b) noexcept {
+  const auto digit = [](std::string_view s, std::size_t i) {
+    return i < s.size() && std::isdigit(static_cast<unsigned char>(s[i])) != 0;
+  };
+  const auto run = [&digit](std::string_view s, std::size_t& i) {
+    while (digit(s, i) && s[i] == '0') ++i;
+    const std::size_t start = i;
+    while (digit(s, i)) ++i;
+    return s.substr(start, i - start);
+  };
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (digit(a, i) && digit(b, j)) {
+      const std::string_view x = run(a, i);
+      const std::string_view y = run(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else {
+      if (a[i] != b[j]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
+      ++i;
+      ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return i == a.size();
+  return a < b;  // equal but for leading zeros
+}
+
+// `*` any run of characters, `?` one character.
+[[nodiscard]] inline bool matches_wildcards(std::string_view text, std::string_view pattern) noexcept {
+  std::size_t t = 0;
+  std::size_t p = 0;
+  std::size_t star = std::string_view::npos;
+  std::size_t resume = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      resume = t;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+      ++p;
+      ++t;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      t = ++resume;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+[[nodiscard]] inline bool has_wildcards(std::string_view text) noexcept {
+  return text.find_first_of("*?") != std::string_view::npos;
+}
+
+// Files in a folder (not below it) that `wanted` accepts, in natural order. Empty when there is no such
+// folder.
+template <class Predicate>
+[[nodiscard]] std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder,
+                                                            Predicate wanted) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (auto it = std::filesystem::directory_iterator(folder, error);
+       !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
+    std::error_code ignored;
+    if (it->is_regular_file(ignored) && wanted(it->path().filename())) files.push_back(it->path());
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+}  // namespace sslam::io

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small text: files read by lines, cells and numbers, independent of the locale, and lists for people.
+#pragma once
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sslam/io/files/error.hpp"
+
+namespace sslam::io {
+
+// The whole file. Throws Error when it cannot be read.
+[[nodiscard]] inline std::string read_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(path.string() + ": is a folder, expected a file");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string() + ": cannot open: " + std::strerror(errno != 0 ? errno : ENOENT));
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) throw Error(path.string() + ": cannot read");
+  return text;
+}
+
+// Cells separated by blanks, tabs, commas or a carriage return, as the TUM tools split them.
+[[nodiscard]] inline std::vector<std::string_view> split_cells(std::string_view line) {
+  constexpr std::string_view kSeparators = " \t,\r";
+  std::vector<std::string_view> cells;
+  for (std::size_t at = line.find_first_not_of(kSeparators); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kSeparators, at), line.size());
+    cells.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(kSeparators, end);
+  }
+  return cells;
+}
+
+struct TextRow {
+  int line = 0;  // counted from 1
+  std::vector<std::string_view> cells;
+};
+
+// Rows that are neither empty nor comments (#). They point into text.
+[[nodiscard]] inline std::vector<TextRow> split_rows(std::string_view text) {
+  std::vector<TextRow> rows;
+  int line = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    ++line;
+    std::vector<std::string_view> cells = split_cells(text.substr(at, end - at));
+    if (!cells.empty() && cells.front().front() != '#') rows.push_back({line, std::move(cells)});
+    at = end + 1;
+  }
+  return rows;
+}
+
+// The number that the whole of text spells; "nan" and "inf" are numbers here, the caller decides about them.
+template <class Number>
+[[nodiscard]] std::optional<Number> parse_number(std::string_view text) noexcept {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// One more item of "a, b, c".
+inline void add_to_list(std::string& list, std::string_view item) {
+  if (!list.empty()) list += ", ";
+  list += item;
+}
+
+// The shortest decimal that reads back as the same double, with at least `decimals` digits after the point.
+// A published stamp such as 1341836537.655662 therefore comes out as it went in.
+[[nodiscard]] inline std::string exact_decimal(double value, std::size_t decimals = 6) {
+  char digits[400];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed);
+  std::string text(digits, end);
+  if (text.find_first_of("ni") != std::string::npos) return text;  // nan, inf
+  std::size_t point = text.find('.');
+  if (point == std::string::npos) {
+    point = text.size();
+    text += '.';
+  }
+  while (text.size() - point - 1 < decimals) text += '0';
+  return text;
+}
+
+}  // namespace sslam::io

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bundle adjustment by Levenberg-Marquardt with blocks of fixed size: what a window of keyframes needs, and
+// no more.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "sslam/solver/bundle/bundle_equations.hpp"
+#include "sslam/solver/bundle/bundle_summary.hpp"
+#include "sslam/solver/bundle/bundle_terms.hpp"
+#include "sslam/solver/least_squares/descent.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct BundleOptions : DescentOptions<S> {
+  BundleLosses<S> losses;
+};
+
+// Keeps its buffers from solve to solve. The same graph gives the same bits.
+template <Scalar S>
+class BundleSolver {
+ public:
+  BundleOptions<S> options;
+
+  // On failure the graph is left as it was.
+  BundleSummary solve(BundleGraph<S>& graph) {
+    BundleSummary summary;
+    state_.load(graph);
+    if (!state_.finite()) return fail(summary, Status::kNotFinite);
+    if (choose_edges(graph) == 0) return summary;
+    S cost = linearise(graph);
+    summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
+    if (!std::isfinite(cost)) return fail(summary, Status::kNotFinite);
+    Descent descent{*this, graph};
+    summary.status = descend<S>(descent, options, cost, summary.iterations);
+    summary.final_cost = static_cast<double>(cost) / 2;
+    if (improved(summary)) state_.store(graph);
+    return summary;
+  }
+
+ private:
+  struct Descent {
+    BundleSolver& solver;
+    const BundleGraph<S>& graph;
+
+    [[nodiscard]] bool solve(S damping) { return solver.equations_.solve(graph, damping); }
+    [[nodiscard]] S try_step() {
+      solver.step();
+      return solver.cost_of(graph, solver.trial_);
+    }
+    void take_step() { std::swap(solver.state_, solver.trial_); }
+    [[nodiscard]] S linearise() { return solver.linearise(graph); }
+  };
+
+  [[nodiscard]] static BundleSummary fail(BundleSummary summary, Status status) {
+    summary.status = status;
+    return summary;
+  }
+
+  // Marks the edges that can be evaluated at the start and returns how many they are.
+  std::size_t choose_edges(const BundleGraph<S>& graph) {
+    active_.points.assign(graph.point_edges.size(), 0);
+    active_.lines.assign(graph.line_edges.size(), 0);
+    std::size_t count = 0;
+    for (const BundlePoint<S>& point : graph.points)
+      for (auto e = index(point.first_edge); e < index(point.last_edge); ++e) {
+        const PointEdge<S>& edge = graph.point_edges[e];
+        const BundleView<S>& view = graph.views[index(edge.view)];
+        PointReprojection<S> seen;
+        active_.points[e] =
+            point_reprojection(view.pinhole, view.cam_from_world, point.position, edge.pixel, seen);
+        count += active_.points[e];
+      }
+    for (const BundleLine<S>& line : graph.lines)
+      for (auto e = index(line.first_edge); e < index(line.last_edge); ++e) {
+        const LineEdge<S>& edge = graph.line_edges[e];
+        const BundleView<S>& view = graph.views[index(edge.view)];
+        LineReprojection<S> seen;
+        active_.lines[e] =
+            line_reprojection(view.pinhole, view.cam_from_world, line.line, edge.segment, seen);
+        count += active_.lines[e];
+      }
+    return count;
+  }
+
+  [[nodiscard]] S linearise(const BundleGraph<S>& graph) {
+    equations_.reset(graph);
+    return BundleTerms<S, BundleEquations<S>>(graph, state_, options.losses, equations_).visit(active_);
+  }
+
+  [[nodiscard]] S cost_of(const BundleGraph<S>& graph, const BundleState<S>& state) const {
+    CostOnly sink;
+    return BundleTerms<S, CostOnly>(graph, state, options.losses, sink).visit(active_);
+  }
+
+  // trial = state moved by the equations' steps.
+  void step() {
+    trial_ = state_;
+    for (std::size_t v = 0; v < state_.views.size(); ++v) {
+      trial_.views[v] = state_.views[v].retract(equations_.view_step(v));
+      trial_.rotations[v] = trial_.views[v].rotation.matrix();
+    }
+    for (std::size_t i = 0; i < state_.points.size(); ++i) trial_.points[i] += equations_.points.steps[i];
+    for (std::size_t i = 0; i < state_.lines.size(); ++i)
+      trial_.lines[i] = state_.lines[i].retract(equations_.lines.steps[i]);
+    for (std::size_t p = 0; p < state_.planes.size(); ++p)
+      trial_.planes[p] = state_.planes[p].retract(equations_.plane_step(p));
+  }
+
+  [[nodiscard]] static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+  BundleState<S> state_, trial_;
+  BundleEquations<S> equations_;
+  ActiveEdges active_;
+};
+
+}  // namespace sslam

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Spreads what loops reveal over a graph of poses: least squares on Sim(3) with a sparse Cholesky
+// factorisation.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "sslam/residual/loss.hpp"
+#include "sslam/residual/similarity_edge.hpp"
+#include "sslam/solver/bundle/bundle_summary.hpp"
+#include "sslam/solver/bundle/bundle_ties.hpp"
+#include "sslam/solver/bundle/pose_graph.hpp"
+#include "sslam/solver/least_squares/descent.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct PoseGraphOptions : DescentOptions<S> {
+  S rotation_width = 2;  // standard deviations at which a rotation tie begins to let go (Cauchy)
+
+  PoseGraphOptions() { this->max_iterations = 20; }
+};
+
+// The same graph gives the same bits.
+template <Scalar S>
+class PoseGraphSolver {
+ public:
+  PoseGraphOptions<S> options;
+
+  // On failure the graph is left as it was. A node without an edge stays where it is; without a held node all
+  // of them float, and the damping keeps them near where they were.
+  BundleSummary solve(PoseGraph<S>& graph) {
+    BundleSummary summary;
+    if (graph.edges.empty()) return summary;
+    load(graph);
+    Descent descent{*this, graph};
+    S cost = linearise(graph);
+    summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
+    if (!std::isfinite(cost)) {
+      summary.status = Status::kNotFinite;
+      return summary;
+    }
+    factor_.analyzePattern(system_);
+    summary.status = descend<S>(descent, options, cost, summary.iterations);
+    summary.final_cost = static_cast<double>(cost) / 2;
+    if (improved(summary))
+      for (std::size_t n = 0; n < graph.nodes.size(); ++n) graph.nodes[n].cam_from_world = state_[n];
+    return summary;
+  }
+
+ private:
+  using Block = Mat<S, 7, 7>;
+  using Sparse = Eigen::SparseMatrix<S>;
+  using VecX = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  static constexpr int kHeld = -1;
+
+  struct Descent {
+    PoseGraphSolver& solver;
+    const PoseGraph<S>& graph;
+
+    [[nodiscard]] bool solve(S damping) { return solver.compute_steps(damping); }
+    [[nodiscard]] S try_step() {
+      solver.step();
+      return solver.visit(
+          graph, solver.trial_, [](const auto&...) {}, [](const auto&...) {});
+    }
+    void take_step() { std::swap(solver.state_, solver.trial_); }
+    [[nodiscard]] S linearise() { return solver.linearise(graph); }
+  };
+
+  void load(const PoseGraph<S>& graph) {
+    state_.clear();
+    slots_.clear();
+    int next = 0;
+    for (const PoseGraphNode<S>& node : graph.nodes) {
+      state_.push_back(node.cam_from_world);
+      slots_.push_back(node.held ? kHeld : next++);
+    }
+    right_.resize(7 * next);
+    system_.resize(7 * next, 7 * next);
+  }
+
+  // Calls edge(edge, whitened derivatives) and tie(node, error, weight, derivative) for each term; returns
+  // the cost.
+  template <class Edge, class Tie>
+  [[nodiscard]] S visit(const PoseGraph<S>& graph, const std::vector<Sim3<S>>& state, Edge on_edge,
+                        Tie on_tie) const {
+    S cost = 0;
+    for (const PoseGraphEdge<S>& edge : graph.edges) {
+      SimilarityEdge<S> seen = similarity_edge(edge.to_from, state[index(edge.from)], state[index(edge.to)]);
+      seen.error = seen.error.cwiseProduct(edge.inverse_sigma).eval();
+      cost += seen.error.squaredNorm();
+      on_edge(edge, seen);
+    }
+    const CauchyLoss<S> loss{options.rotation_width};
+    for (std::size_t n = 0; n < state.size(); ++n) {
+      if (!graph.nodes[n].rotation || graph.nodes[n].held) continue;
+      Mat3<S> derivative;
+      const Vec3<S> error = rotation_tie_residual(*graph.nodes[n].rotation, state[n].rotation, &derivative);
+      cost += loss.rho(error.squaredNorm());
+      on_tie(n, error, loss.weight(error.squaredNorm()), derivative);
+    }
+    return cost;
+  }
+
+  [[nodiscard]] S linearise(const PoseGraph<S>& graph) {
+    triplets_.clear();
+    right_.setZero();
+    for (int i = 0; i < static_cast<int>(right_.size()); ++i) triplets_.emplace_back(i, i, S(0));
+    const S cost = visit(
+        graph, state_,
+        [&](const PoseGraphEdge<S>& edge, const SimilarityEdge<S>& seen) {
+          const Block from = edge.inverse_sigma.asDiagonal() * seen.by_from;
+          const Block to = edge.inverse_sigma.asDiagonal() * seen.by_to;
+          const int f = slots_[index(edge.from)], t = slots_[index(edge.to)];
+          add(f, f, from.transpose() * from, from.transpose() * seen.error);
+          add(t, t, to.transpose() * to, to.transpose() * seen.error);
+          if (f != kHeld && t != kHeld)
+            add_block(std::max(f, t), std::min(f, t),
+                      f > t ? Block(from.transpose() * to) : Block(to.transpose() * from));
+        },
+        [&](std::size_t node, const Vec3<S>& error, S weight, const Mat3<S>& derivative) {
+          Block square = Block::Zero();
+          Vec<S, 7> gradient = Vec<S, 7>::Zero();
+          square.template topLeftCorner<3, 3>() = weight * derivative.transpose() * derivative;
+          gradient.template head<3>() = weight * derivative.transpose() * error;
+          add(slots_[node], slots_[node], square, gradient);
+        });
+    system_.setFromTriplets(triplets_.begin(), triplets_.end());
+    return cost;
+  }
+
+  void add(int row, int col, const Block& block, const Vec<S, 7>& gradient) {
+    if (row == kHeld) return;
+    add_block(row, col, block);
+    right_.template segment<7>(7 * row) += gradient;
+  }
+
+  // The lower half alone.
+  void add_block(int row, int col, const Block& block) {
+    for (int c = 0; c < 7; ++c)
+      for (int r = row == col ? c : 0; r < 7; ++r)
+        triplets_.emplace_back(7 * row + r, 7 * col + c, block(r, c));
+  }
+
+  [[nodiscard]] bool compute_steps(S damping) {
+    damped_ = system_;
+    for (Eigen::Index i = 0; i < damped_.rows(); ++i)
+      damped_.coeffRef(i, i) += damping * std::max(damped_.coeff(i, i), S(1e-9));
+    factor_.factorize(damped_);
+    if (factor_.info() != Eigen::Success) return false;
+    steps_ = -factor_.solve(right_);
+    return steps_.allFinite();
+  }
+
+  void step() {
+    trial_ = state_;
+    for (std::size_t n = 0; n < state_.size(); ++n)
+      if (slots_[n] != kHeld)
+        trial_[n] = state_[n].retract(Vec<S, 7>(steps_.template segment<7>(7 * slots_[n])));
+  }
+
+  [[nodiscard]] static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+  std::vector<Sim3<S>> state_, trial_;
+  std::vector<int> slots_;  // by node: its place among the free ones
+  std::vector<Eigen::Triplet<S>> triplets_;
+  Sparse system_, damped_;  // lower half
+  VecX right_, steps_;
+  Eigen::SimplicialLLT<Sparse> factor_;
+};
+
+}  // namespace sslam

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tracking without a Manhattan frame: first from the last two frames, then from the last keyframe by
+// descriptors (Li et al. 2020, section V-C).
+#pragma once
+
+#include "sslam/track/localise/translation.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class FeatureFallback {
+ public:
+  MatchOptions<S> match;
+  PoseAcceptance<S> acceptance;
+  PoseRefinementOptions<S> solver;
+  S widening = 2;  // of the search windows when the first try fails
+  PointMatchOptions<S> descriptor_match{.max_distance = 50, .max_ratio = S(0.75)};
+
+  // In: the frame's pose is the prediction. Out: the solved pose and its inlying matches; unchanged pose on
+  // failure.
+  [[nodiscard]] PoseEstimate<S> track(const Map<S>& map, const RecentLandmarks<S>& recent,
+                                      const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+    PoseEstimate<S> estimate;
+    for (const S width : {S(1), widening}) {
+      match_recent(map, recent, width, match, frame);
+      estimate = solve(map, prior, frame);
+      if (estimate.ok()) return estimate;
+    }
+    return estimate;
+  }
+
+  // Tracks against one keyframe: its points by descriptors, then its lines by reprojection.
+  [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>& map, KeyframeId id,
+                                               const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    match_keyframe_points(keyframe, frame);
+    const SE3<S> before = frame.cam_from_world;
+    PoseEstimate<S> estimate = solve(map, prior, frame);
+    if (!estimate.ok()) return estimate;
+    recent_.points.clear();
+    recent_.lines.clear();
+    for (const LandmarkId landmark : keyframe.line_landmarks)
+      if (landmark != kNone) recent_.lines.push_back(landmark);
+    match_lines_by_projection<S>(map, recent_.lines, frame, match.line_radius, match.lines,
+                                 [](LandmarkId, bool) {});
+    estimate = solve(map, prior, frame);
+    if (!estimate.ok()) frame.cam_from_world = before;
+    return estimate;
+  }
+
+ private:
+  void match_keyframe_points(const Keyframe<S>& keyframe, TrackedFrame<S>& frame) {
+    frame.forget_matches();
+    // Every feature of the frame is a candidate: after a loss nothing is known about where to look.
+    match_points_mutually<S>(
+        keyframe.frame.points, frame.frame.points, descriptor_match,
+        [&](std::int32_t i, auto visit) {
+          if (keyframe.point_landmarks[Map<S>::index(i)] == kNone) return;
+          for (std::size_t j = 0; j < frame.frame.points.size(); ++j) visit(static_cast<std::int32_t>(j));
+        },
+        pairs_);
+    keep_consistent_rotation<S>(keyframe.frame.points, frame.frame.points, pairs_);
+    for (const IndexPair& p : pairs_)
+      frame.point_landmarks[Map<S>::index(p.second)] = keyframe.point_landmarks[Map<S>::index(p.first)];
+  }
+
+  [[nodiscard]] PoseEstimate<S> solve(const Map<S>& map, const RotationPrior<S>* prior,
+                                      TrackedFrame<S>& frame) {
+    matches_.gather(map, frame);
+    if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
+    SE3<S> pose = frame.cam_from_world;
+    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
+                                        matches_.point_inliers, matches_.line_inliers, prior);
+    if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
+    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, acceptance);
+    if (!estimate.ok()) return estimate;
+    matches_.drop_outliers(frame);
+    frame.cam_from_world = pose;
+    return estimate;
+  }
+
+  Correspondences<S> matches_;
+  RecentLandmarks<S> recent_;
+  std::vector<IndexPair> pairs_;
+};
+
+// Never answers: a frame without Manhattan evidence is lost.
+template <Scalar S>
+struct NoFallback {
+  [[nodiscard]] PoseEstimate<S> track(const Map<S>&, const RecentLandmarks<S>&, const RotationPrior<S>*,
+                                      TrackedFrame<S>&) {
+    return {};
+  }
+  [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>&, KeyframeId, const RotationPrior<S>*,
+                                               TrackedFrame<S>&) {
+    return {};
+  }
+};
+
+}  // namespace sslam

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Refinement of a tracked pose against the local map of the last keyframes, with all six degrees of freedom;
+// the Manhattan rotation takes part as one more observation, weighed by its own covariance.
+#pragma once
+
+#include "sslam/map/local_map.hpp"
+#include "sslam/track/localise/translation.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class LocalMapRefinement {
+ public:
+  MatchOptions<S> match{.point_radius = 6, .line_radius = 10, .points = {}, .lines = {}};
+  PoseAcceptance<S> acceptance{.min_inlier_share = S(0.3)};
+  int min_inliers_turned = 5;  // instead of the acceptance's, where the Manhattan frame gives the rotation
+  PoseRefinementOptions<S> solver;
+  std::size_t max_keyframes = 20;
+
+  // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the
+  // landmarks' visible and found counts are brought up to date. Unchanged pose on failure.
+  [[nodiscard]] PoseEstimate<S> refine(Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+    local_.gather(map, frame.point_landmarks, frame.line_landmarks, max_keyframes);
+    drop_matched(local_.points, frame.point_landmarks);
+    drop_matched(local_.lines, frame.line_landmarks);
+    count_matched(map, frame, [](LandmarkCommon& l) { ++l.visible; });
+    match_points_by_projection<S>(map, local_.points, frame, match.point_radius, match.points,
+                                  [&](LandmarkId id, bool) { ++map.points[map.index(id)].visible; });
+    match_lines_by_projection<S>(map, local_.lines, frame, match.line_radius, match.lines,
+                                 [&](LandmarkId id, bool) { ++map.lines[map.index(id)].visible; });
+    matches_.gather(map, frame);
+    SE3<S> pose = frame.cam_from_world;
+    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
+                                        matches_.point_inliers, matches_.line_inliers, prior);
+    if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
+    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
+    if (!estimate.ok()) return estimate;
+    matches_.drop_outliers(frame);
+    count_matched(map, frame, [](LandmarkCommon& l) { ++l.found; });
+    frame.cam_from_world = pose;
+    return estimate;
+  }
+
+  // What a pose must show, with a rotation from the Manhattan frame or without one.
+  [[nodiscard]] PoseAcceptance<S> accepts(const RotationPrior<S>* prior) const noexcept {
+    PoseAcceptance<S> wanted = acceptance;
+    if (prior != nullptr) wanted.min_inliers = min_inliers_turned;
+    return wanted;
+  }
+
+ private:
+  void drop_matched(std::vector<LandmarkId>& candidates, const std::vector<LandmarkId>& matched) {
+    taken_.clear();
+    for (const LandmarkId id : matched)
+      if (id != kNone) taken_.push_back(id);
+    std::sort(taken_.begin(), taken_.end());
+    std::erase_if(candidates,
+                  [&](LandmarkId id) { return std::binary_search(taken_.begin(), taken_.end(), id); });
+  }
+
+  template <class Count>
+  static void count_matched(Map<S>& map, const TrackedFrame<S>& frame, Count count) {
+    for (const LandmarkId id : frame.point_landmarks)
+      if (id != kNone) count(map.points[map.index(id)]);
+    for (const LandmarkId id : frame.line_landmarks)
+      if (id != kNone) count(map.lines[map.index(id)]);
+  }
+
+  LocalMap<S> local_;
+  Correspondences<S> matches_;
+  std::vector<LandmarkId> taken_;
+};
+
+// Takes the tracked pose as it is.
+template <Scalar S>
+struct NoRefinement {
+  [[nodiscard]] PoseEstimate<S> refine(Map<S>&, const RotationPrior<S>*, TrackedFrame<S>& frame) {
+    return {Reason::kFine, count_held(frame.point_landmarks), count_held(frame.line_landmarks)};
+  }
+};
+
+}  // namespace sslam

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Decoupled tracking: with the Manhattan rotation fixed, three degrees of freedom remain, and points and
+// lines of the last two frames fix them (Li et al. 2020, section V-B).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sslam/track/contract/pose_estimate.hpp"
+#include "sslam/track/matching/match_lines.hpp"
+
+namespace sslam {
+
+// The landmarks seen in the last two frames, each once.
+template <Scalar S>
+struct RecentLandmarks {
+  std::vector<LandmarkId> points;
+  std::vector<LandmarkId> lines;
+
+  void gather(const TrackedFrame<S>& last, const TrackedFrame<S>& before) {
+    merge(points, last.point_landmarks, before.point_landmarks);
+    merge(lines, last.line_landmarks, before.line_landmarks);
+  }
+
+ private:
+  static void merge(std::vector<LandmarkId>& out, const std::vector<LandmarkId>& a,
+                    const std::vector<LandmarkId>& b) {
+    out.clear();
+    for (const auto* seen : {&a, &b})
+      for (const LandmarkId id : *seen)
+        if (id != kNone) out.push_back(id);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+  }
+};
+
+template <Scalar S>
+struct MatchOptions {
+  S point_radius = 20;  // pixels around the prediction, at the finest octave
+  S line_radius = 25;   // pixels between a predicted line and the ends of a segment
+  PointMatchOptions<S> points;
+  LineMatchOptions<S> lines;
+};
+
+// Drops the frame's matches and finds new ones among the recent landmarks, from the pose that the frame has
+// now.
+template <Scalar S>
+void match_recent(const Map<S>& map, const RecentLandmarks<S>& recent, S widening,
+                  const MatchOptions<S>& options, TrackedFrame<S>& frame) {
+  frame.forget_matches();
+  const auto ignore = [](LandmarkId, bool) {};
+  match_points_by_projection<S>(map, recent.points, frame, options.point_radius * widening, options.points,
+                                ignore);
+  match_lines_by_projection<S>(map, recent.lines, frame, options.line_radius * widening, options.lines,
+                               ignore);
+}
+
+template <Scalar S>
+class DecoupledTranslation {
+ public:
+  MatchOptions<S> match;
+  PoseAcceptance<S> acceptance{.min_inliers = 5, .min_inlier_share = S(0.6)};
+  PoseRefinementOptions<S> solver;
+
+  // In: the frame's pose has its Manhattan rotation and a predicted translation. Out: the solved translation
+  // and the inlying matches, or, on failure, an unchanged pose.
+  [[nodiscard]] PoseEstimate<S> translate(const Map<S>& map, const RecentLandmarks<S>& recent,
+                                          TrackedFrame<S>& frame) {
+    match_recent(map, recent, S(1), match, frame);
+    matches_.gather(map, frame);
+    if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
+    SE3<S> pose = frame.cam_from_world;
+    const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
+                                               solver, matches_.point_inliers, matches_.line_inliers);
+    if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
+    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance);
+    if (!estimate.ok()) return estimate;
+    matches_.drop_outliers(frame);
+    frame.cam_from_world = pose;
+    return estimate;
+  }
+
+ private:
+  Correspondences<S> matches_;
+};
+
+// Never answers: every frame takes the fallback, with its full six degrees of freedom.
+template <Scalar S>
+struct NoTranslation {
+  [[nodiscard]] PoseEstimate<S> translate(const Map<S>&, const RecentLandmarks<S>&, TrackedFrame<S>&) {
+    return {.reason = Reason::kNoManhattanFrame};
+  }
+};
+
+}  // namespace sslam

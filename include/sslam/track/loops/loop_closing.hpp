@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loop closing: where a place is met again, the drift in between is spread over the keyframes on the way,
+// what stands twice in the map becomes one, and everything is adjusted together (Mur-Artal, Montiel, Tardos,
+// ORB-SLAM, T-RO 2015, section VII).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sslam/map/essential_graph.hpp"
+#include "sslam/map/map_adjustment.hpp"
+#include "sslam/map/map_deformation.hpp"
+#include "sslam/solver/bundle/pose_graph_solver.hpp"
+#include "sslam/track/loops/loop_detection.hpp"
+#include "sslam/track/loops/map_join.hpp"
+#include "sslam/track/mapping/fusion.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct LoopAnswer {
+  bool closed = false;
+  // By keyframe, how the world moved there; empty where nothing had drifted. Valid until the next call.
+  std::span<const Sim3<S>> new_from_old;
+
+  // What lengths at the keyframe are multiplied by.
+  [[nodiscard]] S scale_at(KeyframeId keyframe) const {
+    return new_from_old.empty() ? S(1) : new_from_old[Map<S>::index(keyframe)].scale;
+  }
+};
+
+// How one map has become part of another.
+template <Scalar S>
+struct MapJoint {
+  Sim3<S> moved;  // its world, in the other
+  IdShift shift;
+};
+
+template <Scalar S>
+class LoopClosing {
+ public:
+  LoopDetection<S> detection;
+  EssentialGraph<S> essential;
+  PoseGraphSolver<S> pose_graph;
+  MapAdjustment<S, BundleSolver<S>> adjustment;
+  LandmarkFusion<S> fusion;
+  std::size_t place_keyframes = 10;  // around the place, whose landmarks are looked for again
+  S in_place = S(0.8);  // share of the place's landmarks that are where the map has them: nothing has drifted
+
+  // Drift bends the map as a whole, which is slow to adjust.
+  LoopClosing() {
+    adjustment.solver.options.max_iterations = 20;
+    adjustment.solver.options.min_decrease = S(1e-5);
+  }
+
+  // The keyframe has just been taken into the map.
+  LoopAnswer<S> close(Map<S>& map, KeyframeId id) {
+    const std::optional<Loop<S>> loop = detection.find(map, id, map);
+    if (!loop) return {};
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    const bool drifted = share_in_place(map, keyframe, *loop, fusion.point_radius) < in_place;
+    // A place that the map expects nearby needs no second thing.
+    const PlaceConfirmation<S>& check = detection.check;
+    if (drifted && share_in_place(map, keyframe, *loop, check.reach) < check.min_share &&
+        !check.confirmed(keyframe, map, *loop, met_))
+      return {};
+    forget();
+    if (drifted && !bend(map, id, *loop)) return {};
+    join(map, id, *loop);
+    if (!drifted) {
+      adjustment.optimise(map, id);
+      return {true, {}};
+    }
+    adjustment.optimise_all(map);
+    return {true, new_from_old_};
+  }
+
+  // `other` becomes part of the map, as its keyframe `id`, which met the map there, says.
+  MapJoint<S> merge(Map<S>& map, Map<S> other, KeyframeId id, const Loop<S>& loop) {
+    MapJoint<S> joint;
+    joint.moved = loop.there_from_here(other.keyframes[map.index(id)].cam_from_world);
+    joint.shift = append(map, std::move(other), joint.moved, detection.max_turn);
+    join(map, id + joint.shift.keyframes, loop);
+    adjustment.optimise_all(map);
+    forget();
+    return joint;
+  }
+
+  // The map is another one.
+  void forget() noexcept { met_.reset(); }
+
+ private:
+  // Of the landmarks of the place that the keyframe sees, how many lie within `reach`, in the feature's
+  // sigma, of where the map has them.
+  [[nodiscard]] S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& loop,
+                                 S reach) const {
+    int seen = 0, near = 0;
+    for (std::size_t i = 0; i < loop.point_landmarks.size(); ++i) {
+      if (loop.point_landmarks[i] == kNone) continue;
+      ++seen;
+      const PointFeature<S>& feature = keyframe.frame.points[i];
+      const auto predicted = predict_point(map.points[map.index(loop.point_landmarks[i])], keyframe.frame,
+                                           keyframe.cam_from_world, S(-1));
+      near += predicted.visible && (predicted.pixel - feature.pixel).norm() < reach * feature.sigma;
+    }
+    return seen > 0 ? static_cast<S>(near) / static_cast<S>(seen) : S(0);
+  }
+
+  // False, with the map as it was, when the poses cannot be brought together.
+  [[nodiscard]] bool bend(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
+    essential.gather(map, adjustment.window_options);
+    const SE3<S>& place = map.keyframes[map.index(loop.place)].cam_from_world;
+    essential.add_loop(map, loop.place, id, loop.cam_from_world * similarity(place).inverse(), loop.matches);
+    if (!improved(pose_graph.solve(essential.graph))) return false;
+    new_from_old_.assign(map.keyframes.size(), {});
+    for (std::size_t n = 0; n < essential.keyframes.size(); ++n) {
+      const auto k = map.index(essential.keyframes[n]);
+      new_from_old_[k] =
+          essential.graph.nodes[n].cam_from_world.inverse() * similarity(map.keyframes[k].cam_from_world);
+    }
+    deform<S>(map, new_from_old_);
+    return true;
+  }
+
+  // What the keyframe and its neighbours see of the place's landmarks becomes one with theirs.
+  void join(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
+    std::vector<KeyframeId> here(1, id);
+    for (const Neighbour& n : map.keyframes[map.index(id)].neighbours) here.push_back(n.keyframe);
+    place_.gather_around(map, loop.place, place_keyframes);
+    take_over(
+        map, id, loop.point_landmarks, &Keyframe<S>::point_landmarks, map.points,
+        [&](LandmarkId from, LandmarkId into) { map.fuse_points(from, into); },
+        [&](LandmarkId landmark, std::size_t feature) { map.observe_point(landmark, id, feature); });
+    take_over(
+        map, id, loop.line_landmarks, &Keyframe<S>::line_landmarks, map.lines,
+        [&](LandmarkId from, LandmarkId into) { map.fuse_lines(from, into); },
+        [&](LandmarkId landmark, std::size_t feature) { map.observe_line(landmark, id, feature); });
+    for (const KeyframeId k : here) fusion.take_in(map, k, place_.points, place_.lines);
+    for (const KeyframeId k : here) map.update_covisibility(k);
+  }
+
+  template <class Seen, class Landmarks, class Fuse, class Observe>
+  static void take_over(Map<S>& map, KeyframeId id, const std::vector<LandmarkId>& of_place, Seen seen,
+                        const Landmarks& landmarks, Fuse fuse, Observe observe) {
+    for (std::size_t i = 0; i < of_place.size(); ++i) {
+      if (of_place[i] == kNone || !landmarks[map.index(of_place[i])].alive) continue;
+      const LandmarkId own = (map.keyframes[map.index(id)].*seen)[i];
+      if (own == of_place[i] || LandmarkFusion<S>::sees(landmarks[map.index(of_place[i])], id)) continue;
+      if (own != kNone)
+        fuse(own, of_place[i]);
+      else
+        observe(of_place[i], i);
+    }
+  }
+
+  LocalMap<S> place_;
+  std::vector<Sim3<S>> new_from_old_;
+  std::optional<PlaceMatch<S>> met_;  // a place that may be one which was left long ago
+};
+
+// The map stays as tracking made it.
+template <Scalar S>
+struct NoLoopClosing {
+  NoLoopDetection<S> detection;
+
+  LoopAnswer<S> close(Map<S>&, KeyframeId) { return {}; }
+  MapJoint<S> merge(Map<S>&, Map<S>, KeyframeId, const Loop<S>&) { return {}; }
+  void forget() noexcept {}
+};
+
+}  // namespace sslam

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Initialisation by decoupled rotation and translation (Li et al. 2020, section IV): rotations from the
+// Manhattan frame, translation as the null vector of the point matches; it waits through pure rotation.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "sslam/core/median.hpp"
+#include "sslam/solver/triangulation/triangulate_point.hpp"
+#include "sslam/solver/two_view/find_relative_pose.hpp"
+#include "sslam/solver/two_view/relative_pose.hpp"
+#include "sslam/solver/two_view/translation.hpp"
+#include "sslam/track/contract/result.hpp"
+#include "sslam/track/matching/match_points.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class DecoupledInitialisation {
+ public:
+  S search_radius = 30;            // pixels around where a feature was last seen, turned with the camera
+  int min_matches = 18;            // with the reference frame: fewer make the newest frame the reference
+  int min_points = 20;             // landmarks that a first map must have
+  S min_parallax = radians(S(1));  // of a landmark that counts
+  S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
+  S max_rotation_sigma = radians(S(2));   // of a Manhattan rotation that is taken as known
+  S scene_depth = 1;                      // median depth of the first map: sets the monocular scale
+  RelativePoseOptions<S> refinement;
+  std::uint64_t seed = 1;
+  PointMatchOptions<S> match{.max_distance = 60, .max_ratio = S(0.9)};
+
+  // Tries to make a first map from the reference frame and this one. On success (kFine) the map holds both as
+  // keyframes with their points, and the frame has its pose and matches.
+  [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map) {
+    if (frame.frame.points.size() < static_cast<std::size_t>(min_points)) return Reason::kTooFewFeatures;
+    if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
+    follow(frame);
+    if (static_cast<int>(pairs_.size()) < min_matches) return adopt(frame, Reason::kTooFewMatches);
+    SO3<S> R_10;
+    Vec3<S> t_10;
+    const Reason reason = relative_pose(frame, R_10, t_10);
+    if (reason != Reason::kFine) return reason;
+    return build(frame, R_10, t_10, map);
+  }
+
+  void reset() { has_reference_ = false; }
+
+ private:
+  Reason adopt(const TrackedFrame<S>& frame, Reason reason) {
+    reference_ = frame;
+    has_reference_ = true;
+    last_pixels_.resize(frame.frame.points.size());
+    for (std::size_t i = 0; i < last_pixels_.size(); ++i) last_pixels_[i] = frame.frame.points[i].pixel;
+    last_rotation_ = frame.cam_from_world.rotation;
+    return reason;
+  }
+
+  // Finds the reference's features in this frame, near where they were last seen.
+  void follow(const TrackedFrame<S>& frame) {
+    const SO3<S> turn = frame.cam_from_world.rotation * last_rotation_.inverse();
+    const Pinhole<S>& pinhole = frame.frame.pinhole;
+    match_points_mutually<S>(
+        reference_.frame.points, frame.frame.points, match,
+        [&](std::int32_t i, auto visit) {
+          const Vec3<S> ray = turn * pinhole.unproject(last_pixels_[Map<S>::index(i)]);
+          if (ray.z() <= 0) return;
+          const Vec2<S> expected = pinhole.project(ray);
+          const PointFeature<S>& from = reference_.frame.points[Map<S>::index(i)];
+          frame.grid.near(expected, search_radius, [&](std::int32_t j) {
+            const PointFeature<S>& to = frame.frame.points[Map<S>::index(j)];
+            const S scale = to.sigma / from.sigma;
+            if (scale < match.max_scale_ratio && scale * match.max_scale_ratio > 1 &&
+                (to.pixel - expected).squaredNorm() < search_radius * search_radius)
+              visit(j);
+          });
+        },
+        pairs_);
+    keep_consistent_rotation<S>(reference_.frame.points, frame.frame.points, pairs_);
+    last_rotation_ = frame.cam_from_world.rotation;
+    for (Vec2<S>& pixel : last_pixels_) {
+      const Vec3<S> ray = turn * pinhole.unproject(pixel);
+      if (ray.z() > 0) pixel = pinhole.project(ray);
+    }
+    for (const IndexPair& p : pairs_)
+      last_pixels_[Map<S>::index(p.first)] = frame.frame.points[Map<S>::index(p.second)].pixel;
+  }
+
+  [[nodiscard]] Reason relative_pose(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10) {
+    bearings_.clear();
+    const Pinhole<S>& k = frame.frame.pinhole;
+    for (const IndexPair& p : pairs_) {
+      const PointFeature<S>& a = reference_.frame.points[Map<S>::index(p.first)];
+      const PointFeature<S>& b = frame.frame.points[Map<S>::index(p.second)];
+      bearings_.push_back({k.unproject(a.pixel), k.unproject(b.pixel), std::max(a.sigma, b.sigma) / k.fx});
+    }
+    inliers_.assign(bearings_.size(), 0);
+    prepare_prior(frame);
+    RelativePoseSummary<S> summary = decoupled(R_10, t_10);
+    if (!usable(summary.status)) {
+      // No Manhattan frame, or one that the matches do not agree with.
+      FindRelativePoseOptions<S> options;
+      options.refinement = refinement;
+      const auto alone = find_relative_pose<S>(bearings_, options, seed, R_10, t_10, inliers_);
+      if (usable(alone.status) || summary.status == Status::kTooFew) summary = alone;
+    }
+    if (summary.status == Status::kLowParallax) return Reason::kLowParallax;
+    if (!usable(summary.status)) return Reason::kNoConsensus;
+    const S sigma = std::sqrt(summary.translation_covariance.trace());
+    return sigma < max_direction_sigma ? Reason::kFine : Reason::kLowParallax;
+  }
+
+  // The relative rotation that the two Manhattan rotations give, and its covariance, where both are there.
+  void prepare_prior(const TrackedFrame<S>& frame) {
+    prior_.reset();
+    if (!reference_.manhattan || !frame.manhattan) return;
+    const SO3<S> R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
+    const Mat3<S> turn = R_10.matrix();
+    prior_ = {R_10, frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose()};
+  }
+
+  // Translation as a null vector with the Manhattan rotation, then a refinement of both in which the rotation
+  // is held by its covariance. kTooFew without a Manhattan rotation that can be trusted about every axis.
+  [[nodiscard]] RelativePoseSummary<S> decoupled(SO3<S>& R_10, Vec3<S>& t_10) {
+    if (!prior_) return {};
+    TranslationOptions<S> options;
+    options.rotation_sigma = std::sqrt(prior_->covariance.trace() / 3);
+    if (!(options.rotation_sigma < max_rotation_sigma)) return {};
+    const auto estimate = translation_from_rotation<S>(bearings_, prior_->cam_from_world, options, seed);
+    if (!usable(estimate.status)) return {.status = estimate.status};
+    R_10 = prior_->cam_from_world;
+    t_10 = estimate.t_10;
+    RelativePoseOptions<S> held = refinement;
+    held.start_sigma = options.rotation_sigma;
+    held.prior_R_10 = prior_->cam_from_world;
+    held.prior_information = prior_->covariance.inverse();
+    return refine_relative_pose<S>(bearings_, R_10, t_10, held, inliers_);
+  }
+
+  // Triangulates the inliers; the two frames become the first keyframes.
+  [[nodiscard]] Reason build(TrackedFrame<S>& frame, const SO3<S>& R_10, const Vec3<S>& t_10, Map<S>& map) {
+    const SE3<S> frame_from_reference{R_10, t_10};
+    seeds_.clear();
+    depths_.clear();
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (!inliers_[i]) continue;
+      const BearingMatch<S>& bearing = bearings_[i];
+      const std::array views{
+          PointView<S>{SE3<S>(), bearing.ray0.template head<2>(), bearing.sigma},
+          PointView<S>{frame_from_reference, bearing.ray1.template head<2>(), bearing.sigma}};
+      PointTriangulationOptions<S> options;
+      options.min_parallax = min_parallax;
+      const auto answer = triangulate_point<S>(views, options);
+      if (!usable(answer.status)) continue;
+      seeds_.push_back({pairs_[i], answer.point});
+      depths_.push_back(answer.point.z());
+    }
+    if (static_cast<int>(seeds_.size()) < min_points) return Reason::kLowParallax;
+    const S scale = scene_depth / median<S>(depths_);
+    reference_.cam_from_world = {reference_rotation(frame, R_10), Vec3<S>::Zero()};
+    frame.cam_from_world = {R_10 * reference_.cam_from_world.rotation, scale * t_10};
+    reference_.forget_matches();
+    frame.forget_matches();
+    map.add_keyframe(reference_.to_keyframe());
+    map.add_keyframe(frame.to_keyframe());
+    const SE3<S> world_from_reference = reference_.cam_from_world.inverse();
+    for (const Seed& s : seeds_) {
+      const LandmarkId id = map.add_point(world_from_reference * Vec3<S>(scale * s.point), 1);
+      map.observe_point(id, 0, Map<S>::index(s.pair.first));
+      map.observe_point(id, 1, Map<S>::index(s.pair.second));
+    }
+    map.update_covisibility(0);
+    map.update_covisibility(1);
+    has_reference_ = false;
+    return Reason::kFine;
+  }
+
+  // The reference sits at the world's origin. Its rotation is that of the Manhattan frame, by whichever of
+  // the two frames knows it better.
+  [[nodiscard]] SO3<S> reference_rotation(const TrackedFrame<S>& frame, const SO3<S>& R_10) const {
+    const bool by_reference =
+        reference_.manhattan &&
+        (!frame.manhattan || reference_.manhattan->covariance.trace() <= frame.manhattan->covariance.trace());
+    if (by_reference) return reference_.manhattan->cam_from_world;
+    if (frame.manhattan) return R_10.inverse() * frame.manhattan->cam_from_world;
+    return reference_.cam_from_world.rotation;
+  }
+
+  struct Seed {
+    IndexPair pair;
+    Vec3<S> point;  // in the reference camera, at unit baseline
+  };
+
+  TrackedFrame<S> reference_;
+  bool has_reference_ = false;
+  std::vector<Vec2<S>> last_pixels_;  // where each feature of the reference was last seen
+  SO3<S> last_rotation_;
+  std::optional<RotationObservation<S>> prior_;  // frame from reference
+  std::vector<IndexPair> pairs_;
+  std::vector<BearingMatch<S>> bearings_;
+  std::vector<std::uint8_t> inliers_;
+  std::vector<Seed> seeds_;
+  std::vector<S> depths_;
+};
+
+}  // namespace sslam

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keyframe choice: a frame joins the map when it shares too little with its reference keyframe, when much
+// comes into view that is new, or when it has moved far enough to give new parallax.
+#pragma once
+
+#include <algorithm>
+
+#include "sslam/map/map.hpp"
+#include "sslam/track/contract/tracked_frame.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class SharedFeatureKeyframes {
+ public:
+  S min_shared = S(0.5);        // share of the reference keyframe's landmarks that the frame still sees
+  S max_baseline = S(0.08);     // distance to the reference keyframe over the median scene depth
+  S max_turn = radians(S(12));  // rotation against the reference keyframe
+  int min_gap = 2;              // frames between keyframes
+
+  [[nodiscard]] bool choose(const Map<S>& map, KeyframeId reference, const TrackedFrame<S>& frame,
+                            int inliers, int frames_since, S median_depth) const {
+    if (frames_since < min_gap) return false;
+    const Keyframe<S>& keyframe = map.keyframes[map.index(reference)];
+    const auto landmarks =
+        static_cast<S>(count_held(keyframe.point_landmarks) + count_held(keyframe.line_landmarks));
+    // The map is to know as much of the frame's features as of the keyframe's: behind a door, all that was
+    // seen through it may be in view still and little of the room be known.
+    const auto features = static_cast<S>(frame.frame.points.size() + frame.frame.lines.size());
+    const auto had = static_cast<S>(keyframe.frame.points.size() + keyframe.frame.lines.size());
+    const S news = std::max(S(1), features / std::max(had, S(1)));
+    const SE3<S> frame_from_reference = frame.cam_from_world * keyframe.cam_from_world.inverse();
+    return static_cast<S>(inliers) < min_shared * landmarks * news ||
+           frame_from_reference.translation.norm() > max_baseline * median_depth ||
+           frame_from_reference.rotation.log().norm() > max_turn;
+  }
+};
+
+// Keeps the map as initialisation left it.
+template <Scalar S>
+struct NoKeyframes {
+  [[nodiscard]] bool choose(const Map<S>&, KeyframeId, const TrackedFrame<S>&, int, int, S) const {
+    return false;
+  }
+};
+
+}  // namespace sslam

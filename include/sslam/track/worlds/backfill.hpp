@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Backfill: frames that passed without a pose get one later: those that a first map was waited for in, once
+// it stands, and those that were lost, once the camera is found again.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <deque>
+
+#include "sslam/track/localise/translation.hpp"
+#include "sslam/track/mapping/keyframe_cursor.hpp"
+#include "sslam/track/worlds/trajectory_log.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class Backfill {
+ public:
+  std::size_t max_frames = 150;  // that are kept while waiting: about 5 s, 100 kB each
+  int max_misses = 5;            // frames in a row, as blurred ones are, beyond which a sweep may go on
+
+  // `placed`: the frame has a pose, in a map that may yet be given up.
+  void keep(const TrackedFrame<S>& frame, bool placed) {
+    if (max_frames == 0) return;
+    if (waiting_.size() == max_frames) waiting_.pop_front();
+    waiting_.push_back({frame, placed});
+  }
+
+  void clear() { waiting_.clear(); }
+
+  // The world in which rotations and poses were seen is given up.
+  void leave_world() {
+    for (Waiting& w : waiting_) {
+      w.frame.forget_manhattan();
+      w.placed = false;
+    }
+  }
+
+  // Tracks the waiting frames one after the other, away from the first and the last keyframe of the first
+  // map: between them from the first until track is lost, then from the last; before them backwards. Poses go
+  // into the log, and keyframes into the map, as they do forwards.
+  template <class Fallback, class Refinement, class Keyframes, class Mapping>
+  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, const Keyframes& keyframes,
+           Mapping& mapping, TrajectoryLog<S>& log) {
+    const auto position = [&](KeyframeId id, int after) {  // of the first waiting frame past the keyframe's
+      const std::int64_t index = map.keyframes[map.index(id)].frame.index + after;
+      const auto at = std::find_if(waiting_.begin(), waiting_.end(),
+                                   [&](const Waiting& w) { return w.frame.frame.index >= index; });
+      return at - waiting_.begin();
+    };
+    const auto sweep_from = [&](KeyframeId from, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                std::ptrdiff_t step) {
+      cursor_.move_to(from);
+      previous_.read_back(map.keyframes[map.index(from)]);
+      return sweep(
+          map, fallback, refinement, begin, end, step,
+          [&](TrackedFrame<S>& frame, const PoseEstimate<S>& estimate) {
+            cursor_.advance(map, frame, estimate, keyframes,
+                            [&](S depth) { return mapping.insert(map, frame, depth); });
+            return cursor_.reference();
+          },
+          log);
+    };
+    const KeyframeId first = map.keyframes.front().id, last = map.keyframes.back().id;
+    const std::ptrdiff_t after_first = position(first, 1);
+    const std::ptrdiff_t before_last = std::max(after_first, position(last, 0));
+    const std::ptrdiff_t rest = sweep_from(first, after_first, before_last, 1);
+    sweep_from(last, before_last - 1, rest - 1, -1);
+    sweep_from(first, position(first, 0) - 1, -1, -1);
+    waiting_.clear();
+  }
+
+  // A lost frame has just been found, and `reference` is the keyframe next to it: the frames before it that
+  // were lost as well are tracked backwards from it, as far as that goes. The map stays as it is.
+  template <class Fallback, class Refinement>
+  void run_back(Map<S>& map, Fallback& fallback, Refinement& refinement, const TrackedFrame<S>& found,
+                KeyframeId reference, TrajectoryLog<S>& log) {
+    const auto last_placed =
+        std::find_if(waiting_.rbegin(), waiting_.rend(), [](const Waiting& w) { return w.placed; });
+    previous_.read_back(found);
+    sweep(
+        map, fallback, refinement, std::ssize(waiting_) - 1, waiting_.rend() - last_placed - 1, -1,
+        [&](const TrackedFrame<S>&, const PoseEstimate<S>&) { return reference; }, log);
+  }
+
+ private:
+  struct Waiting {
+    TrackedFrame<S> frame;
+    bool placed;
+  };
+
+  // Tracks the waiting frames from `begin` on, each from previous_, until too many in a row have no pose.
+  // Those that have one are shown to take(frame, estimate), which answers with their reference keyframe, and
+  // go into the log. The position after the last of them.
+  template <class Fallback, class Refinement, class Take>
+  std::ptrdiff_t sweep(Map<S>& map, Fallback& fallback, Refinement& refinement, std::ptrdiff_t begin,
+                       std::ptrdiff_t end, std::ptrdiff_t step, Take take, TrajectoryLog<S>& log) {
+    std::ptrdiff_t next = begin;
+    for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= max_misses; i += step) {
+      Waiting& waiting = waiting_[static_cast<std::size_t>(i)];
+      TrackedFrame<S>& frame = waiting.frame;
+      const PoseEstimate<S> estimate = track(frame, map, fallback, refinement);
+      if (!estimate.ok()) continue;
+      const KeyframeId reference = take(frame, estimate);
+      log.add(map, frame.frame.index, frame.frame.stamp, reference, frame.cam_from_world);
+      previous_.read_back(frame);
+      waiting.placed = true;
+      next = i + step;
+    }
+    return next;
+  }
+
+  template <class Fallback, class Refinement>
+  PoseEstimate<S> track(TrackedFrame<S>& frame, Map<S>& map, Fallback& fallback, Refinement& refinement) {
+    recent_.gather(previous_, previous_);
+    frame.cam_from_world = previous_.cam_from_world;
+    const PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame);
+    return estimate.ok() ? refinement.refine(map, nullptr, frame) : estimate;
+  }
+
+  std::deque<Waiting> waiting_;
+  TrackedFrame<S> previous_;  // its matches and its pose alone
+  RecentLandmarks<S> recent_;
+  KeyframeCursor<S> cursor_;
+};
+
+}  // namespace sslam

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map on trial: what speaks against it is a loss of track while it is young, and poses inconsistent to
+// the Manhattan frame.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "sslam/map/map.hpp"
+#include "sslam/track/contract/tracked_frame.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+class MapTrial {
+ public:
+  int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
+  int give_up_after = 15;      // frames in a row that speak against it until that happens
+  int leave_after = 30;        // the same for an older map, until it is left for a new one
+  int telling_features = 50;   // points plus lines that make a lost frame speak against the map
+  S max_turn = radians(S(5));  // between a pose and what the Manhattan frame says of its rotation, and
+  S max_sigmas = 4;            // the same in standard deviations: beyond both they contradict each other
+
+  [[nodiscard]] bool young(const Map<S>& map) const noexcept {
+    return static_cast<int>(map.keyframes.size()) < young_map;
+  }
+  [[nodiscard]] bool lost() const noexcept { return frames_ > 0; }
+
+  // The place in a map that was not made here is yet to be found; however young, that map is not given up.
+  void begin_in_given_map() noexcept {
+    frames_ = 1;
+    given_ = true;
+  }
+  // One more frame is lost. A covered lens says nothing about the map; an image that shows enough and does
+  // not fit does.
+  void add_lost(const Frame<S>& frame) noexcept {
+    ++frames_;
+    if (static_cast<int>(frame.points.size() + frame.lines.size()) >= telling_features) ++unfit_;
+  }
+  void end_loss() noexcept { frames_ = unfit_ = 0; }
+
+  // A frame has a pose. A first map whose depths are wrong, as two views of a flat scene can leave it, turns
+  // the camera as it moves; the Manhattan frame does not turn along.
+  void weigh(const TrackedFrame<S>& frame) {
+    if (!frame.manhattan) return;
+    const bool against = contradicts(frame);
+    inconsistent_ = against ? inconsistent_ + 1 : 0;
+    square_ += against ? 0 : 1;
+  }
+  [[nodiscard]] bool contradicts(const TrackedFrame<S>& frame) const {
+    if (!frame.manhattan) return false;
+    const SO3<S> off = frame.manhattan->cam_from_world * frame.cam_from_world.rotation.inverse();
+    const Vec3<S> turn = off.log();
+    return turn.norm() > max_turn &&
+           turn.dot(frame.manhattan->covariance.llt().solve(turn)) > max_sigmas * max_sigmas;
+  }
+
+  // A young map that a loss speaks against, or one with more frames inconsistent to the Manhattan frame, in a
+  // row, than it has ever had square to it.
+  [[nodiscard]] bool refutes(const Map<S>& map) const noexcept {
+    return !given_ && (lost_young(map) || inconsistent_ >= patience());
+  }
+  // Whether that may still come to pass soon. Where no Manhattan frame is seen, nothing can be inconsistent
+  // to it.
+  [[nodiscard]] bool undecided(const Map<S>& map) const noexcept {
+    const bool weighed = square_ + inconsistent_ > 0;
+    return !given_ && (young(map) || (weighed && square_ < give_up_after));
+  }
+
+  // An older map in which the camera has been lost for long. One that was given is never left: its world is
+  // where poses are wanted.
+  [[nodiscard]] bool leaves() const noexcept { return !given_ && unfit_ >= leave_after; }
+
+  // Another map begins. Where one after the other is inconsistent, the world is not as square as it looks:
+  // each of them is given twice the time.
+  void begin_again() noexcept {
+    if (inconsistent_ >= patience()) ++given_up_;
+    frames_ = unfit_ = inconsistent_ = square_ = 0;
+  }
+
+ private:
+  [[nodiscard]] bool lost_young(const Map<S>& map) const noexcept {
+    return unfit_ >= give_up_after && young(map);
+  }
+  [[nodiscard]] int patience() const noexcept {
+    return std::max(give_up_after << std::min(given_up_, 16), square_);
+  }
+
+  int frames_ = 0;        // in a row
+  int unfit_ = 0;         // of them, those that showed enough to be recognised
+  int inconsistent_ = 0;  // tracked frames in a row that contradict the Manhattan frame
+  int square_ = 0;        // tracked frames of this map that agree with it
+  int given_up_ = 0;      // maps, for being inconsistent
+  bool given_ = false;
+};
+
+}  // namespace sslam
