@@ -95,13 +95,13 @@ void visit_refinement(Stage& s, Visit& visit) {
 
 template <class Stage, class Visit>
 void visit_keyframes(Stage& s, Visit& visit) {
-  if constexpr (requires { s.min_shared; }) {
-    visit("keyframes.min_shared", s.min_shared, Unit::kNumber,
+  if constexpr (requires { s.options.min_shared; }) {
+    visit("keyframes.min_shared", s.options.min_shared, Unit::kNumber,
           "share of the reference keyframe's landmarks still seen");
-    visit("keyframes.max_baseline", s.max_baseline, Unit::kNumber,
+    visit("keyframes.max_baseline", s.options.max_baseline, Unit::kNumber,
           "distance to the reference over the median scene depth");
-    visit("keyframes.max_turn", s.max_turn, Unit::kDegrees, "rotation against the reference");
-    visit("keyframes.min_gap", s.min_gap, Unit::kNumber, "frames between keyframes");
+    visit("keyframes.max_turn", s.options.max_turn, Unit::kDegrees, "rotation against the reference");
+    visit("keyframes.min_gap", s.options.min_gap, Unit::kNumber, "frames between keyframes");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "sslam/core/inline_vector.hpp"
 #include "sslam/core/median.hpp"
 #include "sslam/core/move_to_end.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/random.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/types.hpp"

@@ -5,22 +5,39 @@
 
 #include <algorithm>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class SharedFeatureKeyframes {
- public:
+struct KeyframeOptions {
   S min_shared = S(0.5);        // share of the reference keyframe's landmarks that the frame still sees
   S max_baseline = S(0.08);     // distance to the reference keyframe over the median scene depth
   S max_turn = radians(S(12));  // rotation against the reference keyframe
   int min_gap = 2;              // frames between keyframes
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_shared", self.min_shared, Unit::kShare, 0, 1,
+          "of the reference keyframe's landmarks still seen");
+    visit("max_baseline", self.max_baseline, Unit::kNumber, 0, 10,
+          "distance to the reference keyframe over the median scene depth");
+    visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180, "rotation against the reference keyframe");
+    visit("min_gap", self.min_gap, Unit::kCount, 1, 1000, "frames between keyframes");
+  }
+};
+static_assert(Described<KeyframeOptions<double>>);
+
+template <Scalar S>
+class SharedFeatureKeyframes {
+ public:
+  KeyframeOptions<S> options;
+
   [[nodiscard]] bool choose(const Map<S>& map, KeyframeId reference, const TrackedFrame<S>& frame,
                             int inliers, int frames_since, S median_depth) const {
-    if (frames_since < min_gap) return false;
+    if (frames_since < options.min_gap) return false;
     const Keyframe<S>& keyframe = map.keyframes[map.index(reference)];
     const auto landmarks =
         static_cast<S>(count_held(keyframe.point_landmarks) + count_held(keyframe.line_landmarks));
@@ -30,9 +47,9 @@ class SharedFeatureKeyframes {
     const auto had = static_cast<S>(keyframe.frame.points.size() + keyframe.frame.lines.size());
     const S news = std::max(S(1), features / std::max(had, S(1)));
     const SE3<S> frame_from_reference = frame.cam_from_world * keyframe.cam_from_world.inverse();
-    return static_cast<S>(inliers) < min_shared * landmarks * news ||
-           frame_from_reference.translation.norm() > max_baseline * median_depth ||
-           frame_from_reference.rotation.log().norm() > max_turn;
+    return static_cast<S>(inliers) < options.min_shared * landmarks * news ||
+           frame_from_reference.translation.norm() > options.max_baseline * median_depth ||
+           frame_from_reference.rotation.log().norm() > options.max_turn;
   }
 };
 
