@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -20,7 +21,7 @@ ParameterValue parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
+  if (!value || !std::isfinite(*value)) throw Error("--set " + text + ": expected stage.parameter=number");
   return {text.substr(0, equals), *value};
 }
 
@@ -33,29 +34,28 @@ constexpr std::array<Order, 2> kOrders{{
     {"rotation.narrowest_kernel", "rotation.widest_kernel", "the search could not narrow"},
 }};
 
-void check_orders(const std::vector<ParameterValue>& parameters) {
+void check_orders(const std::vector<ParameterInfo>& parameters) {
   const auto find = [&](std::string_view name) {
     return std::find_if(parameters.begin(), parameters.end(),
-                        [name](const ParameterValue& parameter) { return parameter.name == name; });
+                        [name](const ParameterInfo& parameter) { return parameter.name == name; });
   };
   for (const Order& order : kOrders) {
     const auto low = find(order.low), high = find(order.high);
     if (low == parameters.end() || high == parameters.end() || low->value < high->value) continue;
     char values[80];
     std::snprintf(values, sizeof values, "%g is not below the %g of ", low->value, high->value);
-    throw io::Error("--set " + low->name + ": " + values + high->name + ": " + std::string(order.otherwise));
+    throw Error("--set " + low->name + ": " + values + high->name + ": " + std::string(order.otherwise));
   }
 }
 
 }  // namespace
 
-const Preset& find_preset(const std::string& wanted) {
-  std::string known;
-  for (const Preset& preset : kPresets) {
-    if (preset.name == wanted) return preset;
-    io::add_to_list(known, preset.name);
+const Preset& choose_preset(const std::string& wanted) {
+  try {
+    return find_preset(wanted);
+  } catch (const Error& error) {
+    throw Error(std::string("--preset ") + error.what());
   }
-  throw io::Error("--preset " + wanted + ": not known; use one of " + known);
 }
 
 io::Dataset open_run_dataset(const RunSettings& settings) {
@@ -78,39 +78,42 @@ CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& d
   }
   std::string why;
   const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
-  if (first.empty()) throw io::Error(why + "; the camera's size is not known without it");
+  if (first.empty()) throw Error(why + "; the camera's size is not known without it");
   camera.width = first.cols;
   camera.height = first.rows;
   return choice;
 }
 
 void check_live(const RunSettings& settings, const Preset& preset) {
-  if (!settings.live || preset.run_live != nullptr) return;
+  if (!settings.live || preset.make_live != nullptr) return;
   std::string able;
-  for (const Preset& p : kPresets)
-    if (p.run_live != nullptr) io::add_to_list(able, p.name);
-  throw io::Error("--live: not with --preset " + settings.preset + "; use one of " + able);
+  for (const Preset& p : all_presets())
+    if (p.make_live != nullptr) io::add_to_list(able, p.name);
+  throw Error("--live: not with --preset " + settings.preset + "; use one of " + able);
 }
 
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
   if (settings.normals != "depth") return;
   const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
                                [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
-  if (!any)
-    throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
+  if (!any) throw Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
   if (!(depth_factor > 0))
-    throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
+    throw Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
 
 std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
-  TrackSettings track;
-  for (const std::string& text : set) track.overrides.push_back(parse_override(text));
-  // A run over no frames refuses what a run over many would.
-  const io::Dataset nothing;
-  FrameStream stream(nothing, {});
-  Progress silent(0, Verbosity::kQuiet, "run");
-  check_orders(preset.run(stream, track, silent).parameters);
-  return std::move(track.overrides);
+  const std::unique_ptr<Engine> engine = preset.make();
+  std::vector<ParameterValue> overrides;
+  for (const std::string& text : set) {
+    overrides.push_back(parse_override(text));
+    try {
+      engine->set(overrides.back());
+    } catch (const Error& error) {
+      throw Error(std::string("--set ") + error.what());
+    }
+  }
+  check_orders(engine->parameters());
+  return overrides;
 }
 
 }  // namespace sslam::cli

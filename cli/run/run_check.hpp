@@ -8,12 +8,11 @@
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/normal_choice.hpp"
 #include "cli/run.hpp"
-#include "cli/run/presets.hpp"
-#include "cli/run/track_settings.hpp"
+#include "sslam/system/presets.hpp"
 
 namespace sslam::cli {
 
-[[nodiscard]] const Preset& find_preset(const std::string& wanted);
+[[nodiscard]] const Preset& choose_preset(const std::string& wanted);
 
 // The frames that the settings ask for.
 [[nodiscard]] io::Dataset open_run_dataset(const RunSettings& settings);

@@ -277,10 +277,10 @@ TEST_CASE("run refuses what it cannot use with one line") {
   require_refused(copy.run("--set keyframes.min_gap=many"), "--set keyframes.min_gap=many");
   require_refused(copy.run("--set keyframes.gap=2"), "no such parameter");
   require_refused(copy.run("--preset features --set rotation.frames=2"), "no such parameter");
-  require_refused(copy.run("--set keyframes.min_gap=2.5"), "--set keyframes.min_gap: wants a whole number");
-  require_refused(copy.run("--set keyframes.min_gap=1e10"), "wants a whole number below 2147483647");
-  require_refused(copy.run("--set keyframes.max_turn=-8"),
-                  "--set keyframes.max_turn: wants no negative number");
+  require_refused(copy.run("--set keyframes.min_gap=2.5"),
+                  "--set keyframes.min_gap: expected a whole number");
+  require_refused(copy.run("--set keyframes.min_gap=1e10"), "expected a whole number below 2147483647");
+  require_refused(copy.run("--set keyframes.max_turn=-8"), "--set keyframes.max_turn: must not be negative");
   require_refused(copy.run("--set rotation.squareness=3"),
                   "--set rotation.squareness: 3 is not below the 1.5 of rotation.max_sigma: no rotation "
                   "would be trusted");

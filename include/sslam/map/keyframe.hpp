@@ -33,7 +33,8 @@ struct Keyframe {
   std::vector<std::int8_t> line_axes;       // number of each line's Manhattan axis, or kNone
   std::optional<RotationObservation<S>> manhattan;
   std::vector<Neighbour> neighbours;  // covisibility, most shared first
-  // Of a keyframe that was removed as redundant: who carries its place on. Nothing else is left of it.
+  // Of a keyframe that was removed as redundant: its parent in the spanning tree, relative to which its pose
+  // is kept. Nothing else is left of it.
   KeyframeId parent = kNone;
   SE3<S> cam_from_parent;
 

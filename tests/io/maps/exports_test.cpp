@@ -83,7 +83,7 @@ TEST_CASE("a COLMAP model of nothing is a model, and one that cannot be written 
   const ScratchFolder scratch;
   CHECK(io::write_colmap_model(scratch.path(), {}, {}).images == 0);
   CHECK(read_model(scratch.path()).images.empty());
-  CHECK_THROWS_AS(io::write_colmap_model(scratch.path() / "nowhere", {}, {}), io::Error);
+  CHECK_THROWS_AS(io::write_colmap_model(scratch.path() / "nowhere", {}, {}), Error);
 }
 
 TEST_CASE("KITTI's rows are the upper rows of camera to world") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The heavy kernels are instantiated once for the command line, in kernels_*.cpp, instead of once for every
-// preset.
+// The heavy kernels are instantiated once, in src/kernels_*.cpp, instead of once for every
+// pipeline.
 #pragma once
 
 #include "sslam/track/presets.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cli/run/kernels.hpp"
+#include "sslam/system/compiled_kernels.hpp"
 
 namespace sslam {
 

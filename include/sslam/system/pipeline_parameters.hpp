@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every parameter of a pipeline by name, with what it means: for --set, for --list-parameters and for
-// metrics.json.
+// Every parameter of a pipeline by name, with what it means.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <type_traits>
+#include <vector>
 
+#include "sslam/core/error.hpp"
+#include "sslam/system/parameter_value.hpp"
 #include "sslam/track/presets.hpp"
 
-namespace sslam::cli {
-
-enum class Unit { kNumber, kPixels, kDegrees };  // kDegrees: radians inside, degrees outside
+namespace sslam {
 
 // Of one stage each; a null model has none.
 template <class Stage, class Visit>
@@ -176,4 +179,32 @@ void visit_parameters(Pipeline& p, Visit visit) {
   visit_loops(p.loops, visit);
 }
 
-}  // namespace sslam::cli
+template <class P>
+[[nodiscard]] std::vector<ParameterInfo> list_parameters(P& pipeline) {
+  std::vector<ParameterInfo> values;
+  visit_parameters(pipeline, [&](const char* name, const auto& value, Unit unit, const char* meaning) {
+    values.push_back({{name, static_cast<double>(value) / inside_unit(unit)}, unit, meaning});
+  });
+  return values;
+}
+
+template <class P>
+void set_parameter(P& pipeline, const ParameterValue& wanted) {
+  bool known = false;
+  visit_parameters(pipeline, [&](const char* name, auto& value, Unit unit, const char*) {
+    if (wanted.name != name) return;
+    using Value = std::remove_reference_t<decltype(value)>;
+    const double inside = wanted.value * inside_unit(unit);
+    if (inside < 0) throw Error(wanted.name + ": must not be negative");
+    if constexpr (std::is_integral_v<Value>) {
+      constexpr Value kMost = std::numeric_limits<Value>::max();
+      if (inside != std::floor(inside) || inside >= static_cast<double>(kMost))
+        throw Error(wanted.name + ": expected a whole number below " + std::to_string(kMost));
+    }
+    value = static_cast<Value>(inside);
+    known = true;
+  });
+  if (!known) throw Error(wanted.name + ": no such parameter in this preset; see --list-parameters");
+}
+
+}  // namespace sslam
