@@ -2,11 +2,14 @@
 // A frame on its way through the tracker: features, an index over them, the landmarks they see, and a pose.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "sslam/map/feature_grid.hpp"
 #include "sslam/map/keyframe.hpp"
+#include "sslam/map/manhattan_axes.hpp"
+#include "sslam/track/contract/rotation_answer.hpp"
 
 namespace sslam {
 
@@ -27,6 +30,18 @@ struct TrackedFrame {
     grid.build(frame.points, frame.width, frame.height);
     forget_manhattan();
     forget_matches();
+  }
+
+  // Takes over what the rotation stage says, with the lines' axes by their numbers in the world.
+  void take(const RotationAnswer<S>& answer, const std::vector<SO3<S>>& world_from_manhattan) {
+    forget_manhattan();
+    if (!answer.seen) return;
+    manhattan = answer.seen->rotation;
+    manhattan_frame = answer.seen->manhattan_frame;
+    if (manhattan_frame >= world_from_manhattan.size()) return;  // the rotation comes from elsewhere
+    const std::size_t lines = std::min(answer.line_axes.size(), line_axes.size());
+    for (std::size_t i = 0; i < lines; ++i)
+      line_axes[i] = axis_number(world_from_manhattan, manhattan_frame, answer.line_axes[i]);
   }
 
   void forget_manhattan() {

@@ -7,24 +7,10 @@
 
 #include "sslam/core/move_to_end.hpp"
 #include "sslam/map/map_deformation.hpp"
+#include "sslam/track/contract/loop_answer.hpp"
 #include "sslam/track/loops/axis_names.hpp"
 
 namespace sslam {
-
-// What is added to the ids of the map that moves.
-struct IdShift {
-  std::int32_t keyframes = 0, points = 0, lines = 0, planes = 0;
-
-  static void apply(std::int32_t& id, std::int32_t shift) noexcept {
-    if (id != kNone) id += shift;
-  }
-  // Of a frame or a keyframe.
-  template <class View>
-  void apply_to_matches(View& view) const {
-    for (LandmarkId& id : view.point_landmarks) apply(id, points);
-    for (LandmarkId& id : view.line_landmarks) apply(id, lines);
-  }
-};
 
 namespace detail {
 

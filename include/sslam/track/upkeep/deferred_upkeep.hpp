@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/upkeep/map_change.hpp"
+#include "sslam/track/contract/map_change.hpp"
 
 namespace sslam {
 

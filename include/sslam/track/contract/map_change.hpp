@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sslam/track/upkeep/map_messages.hpp"
+#include "sslam/track/contract/map_messages.hpp"
 
 namespace sslam {
 
