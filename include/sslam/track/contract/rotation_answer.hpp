@@ -27,12 +27,13 @@ struct RotationAnswer {
     std::size_t manhattan_frame = 0;  // of the world's, that it comes from
   };
 
-  std::optional<Seen> seen;  // empty: this frame shows nothing of its rotation
-  int axes_seen = 0;         // Manhattan axes with support
+  std::optional<Seen> seen = {};  // empty: this frame shows nothing of its rotation
+  int axes_seen = 0;              // Manhattan axes with support
   // Axis 0, 1 or 2 of that Manhattan frame for each line, or kNone; empty where none is known. Valid until
   // the stage is called again.
-  std::span<const std::int8_t> line_axes;
-  std::optional<SO3<S>> discovered;  // world_from_manhattan of one that is to join the world's, as its last
+  std::span<const std::int8_t> line_axes = {};
+  // How a new Manhattan frame stands in the world, which is to join those that are known, as their last.
+  std::optional<SO3<S>> discovered = {};
 
   [[nodiscard]] bool trusted() const noexcept { return seen && seen->certain; }
 };
