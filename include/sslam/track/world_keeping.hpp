@@ -73,7 +73,7 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     const MapJoint<S> joint = known.take_in(std::move(world_), place, loops);
     world_ = std::move(known);
     for (TrackedFrame<S>& frame : frames_.all()) {
-      joint.shift.apply_to_matches(frame);
+      joint.shift.apply_to_matches(frame.point_landmarks, frame.line_landmarks);
       frame.cam_from_world = carried(joint.moved, frame.cam_from_world);
     }
     TrackedFrame<S>& frame = frames_.current();

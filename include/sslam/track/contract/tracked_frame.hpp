@@ -58,8 +58,10 @@ struct TrackedFrame {
   template <class View>
   void read_back(const View& view) {
     cam_from_world = view.cam_from_world;
-    point_landmarks = view.point_landmarks;
-    line_landmarks = view.line_landmarks;
+    const std::vector<LandmarkId>& points = view.point_landmarks;
+    const std::vector<LandmarkId>& lines = view.line_landmarks;
+    point_landmarks = points;
+    line_landmarks = lines;
   }
 
   [[nodiscard]] Keyframe<S> to_keyframe() const {
@@ -67,11 +69,9 @@ struct TrackedFrame {
     keyframe.frame = frame;
     keyframe.frame.normals = {};  // they served the rotation stage
     keyframe.cam_from_world = cam_from_world;
-    keyframe.point_landmarks = point_landmarks;
-    keyframe.line_landmarks = line_landmarks;
     keyframe.line_axes = line_axes;
     keyframe.manhattan = manhattan;
-    return keyframe;
+    return std::move(keyframe).seeing(point_landmarks, line_landmarks);
   }
 };
 
