@@ -18,24 +18,24 @@ namespace sslam {
 // Of one stage each; a null model has none.
 template <class Stage, class Visit>
 void visit_rotation(Stage& s, Visit& visit) {
-  if constexpr (requires { s.search; }) {
-    visit("rotation.squareness", s.squareness, Unit::kDegrees,
+  if constexpr (requires { s.sightings; }) {
+    visit("rotation.squareness", s.options.squareness, Unit::kDegrees,
           "how far walls and edges stand from right angles");
-    visit("rotation.max_sigma", s.max_sigma, Unit::kDegrees,
+    visit("rotation.max_sigma", s.options.max_sigma, Unit::kDegrees,
           "largest standard deviation of a rotation that is trusted");
-    visit("rotation.frames", s.frames.most, Unit::kNumber,
+    visit("rotation.frames", s.sightings.options.most, Unit::kNumber,
           "Manhattan frames that are told apart; 1: the first is the only one");
-    visit("rotation.told_apart", s.frames.told_apart, Unit::kDegrees,
+    visit("rotation.told_apart", s.sightings.options.told_apart, Unit::kDegrees,
           "least angle between two Manhattan frames");
-    visit("rotation.agreement", s.frames.agreement, Unit::kDegrees,
+    visit("rotation.agreement", s.sightings.options.agreement, Unit::kDegrees,
           "between sightings of a Manhattan frame found late");
-    visit("rotation.confirmations", s.frames.confirmations, Unit::kNumber,
+    visit("rotation.confirmations", s.sightings.options.confirmations, Unit::kNumber,
           "sightings in a row that make one believed");
-    visit("rotation.min_normal_share", s.search.rotation.min_normal_share, Unit::kNumber,
+    visit("rotation.min_normal_share", s.options.search.rotation.min_normal_share, Unit::kNumber,
           "share of the normals that shows an axis");
-    visit("rotation.widest_kernel", s.search.rotation.widest_kernel, Unit::kDegrees,
+    visit("rotation.widest_kernel", s.options.search.rotation.widest_kernel, Unit::kDegrees,
           "first kernel width of the mean-shift");
-    visit("rotation.narrowest_kernel", s.search.rotation.narrowest_kernel, Unit::kDegrees,
+    visit("rotation.narrowest_kernel", s.options.search.rotation.narrowest_kernel, Unit::kDegrees,
           "last kernel width");
   }
 }
@@ -152,8 +152,9 @@ void visit_loops(Stage& s, Visit& visit) {
           "places to compare a new keyframe with; 0: no loop is closed");
     visit("loops.min_inliers", s.detection.refinement.acceptance.min_inliers, Unit::kNumber,
           "points plus lines that must be seen again");
-    visit("loops.max_turn", s.detection.max_turn, Unit::kDegrees, "of the world that a loop may undo");
-    visit("loops.max_scale_drift", s.detection.max_scale_drift, Unit::kNumber,
+    visit("loops.max_turn", s.detection.options.max_turn, Unit::kDegrees,
+          "of the world that a loop may undo");
+    visit("loops.max_scale_drift", s.detection.options.max_scale_drift, Unit::kNumber,
           "that a loop may undo, factor");
   }
 }
@@ -172,9 +173,9 @@ void visit_parameters(Pipeline& p, Visit visit) {
   visit_keyframes(p.keyframes, visit);
   visit_mapping(p.mapping, visit);
   visit_planes(p.mapping, visit);
-  visit("atlas.leave_after", p.trial.leave_after, Unit::kNumber,
+  visit("atlas.leave_after", p.trial.options.leave_after, Unit::kNumber,
         "frames in a row that show enough and have no pose, until a new map is begun");
-  visit("atlas.most", p.atlas.most, Unit::kNumber,
+  visit("atlas.most", p.atlas.options.most, Unit::kNumber,
         "maps that are kept for when the camera comes back; 0: a lost map is never left");
   visit_loops(p.loops, visit);
 }

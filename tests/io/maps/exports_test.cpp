@@ -29,8 +29,7 @@ Keyframe<double> keyframe_at(const Vec3<double>& centre, const Vec3<double>& tur
     feature.pixel = keyframe.frame.pinhole.project(keyframe.cam_from_world * place);
     keyframe.frame.points.push_back(feature);
   }
-  keyframe.point_landmarks.assign(keyframe.frame.points.size(), kNone);
-  return keyframe;
+  return std::move(keyframe).seeing(std::vector<LandmarkId>(std::size(kPlaces), kNone), {});
 }
 
 Map<double> small_map() {

@@ -101,13 +101,13 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
     io::save_map(path, map);
     REQUIRE_THROWS_AS(io::load_map(path), Error);
   };
-  refused([](auto& m) { m.keyframes[3].point_landmarks[0] = 100000; });
-  refused([](auto& m) { m.keyframes[3].point_landmarks.pop_back(); });
+  refused([](auto& m) { MapDoor::open(m.keyframes[3].point_landmarks)[0] = 100000; });
+  refused([](auto& m) { MapDoor::open(m.keyframes[3].point_landmarks).pop_back(); });
   const auto seen = [](auto& m) -> auto& {
     return *std::find_if(m.points.begin(), m.points.end(), [](auto& p) { return !p.observations.empty(); });
   };
-  refused([&](auto& m) { seen(m).observations[0].keyframe = -2; });
-  refused([&](auto& m) { seen(m).observations[0].feature = 100000; });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].keyframe = -2; });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].feature = 100000; });
   refused([&](auto& m) { seen(m).position.x() = std::nan(""); });
   refused([](auto& m) { m.keyframes[3].parent = 4; });  // a ring: 4 went to 3
   refused([](auto& m) { m.keyframes[0].parent = 1; });

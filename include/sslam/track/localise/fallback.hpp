@@ -83,6 +83,7 @@ class FeatureFallback {
   RecentLandmarks<S> recent_;
   std::vector<IndexPair> pairs_;
 };
+static_assert(FallbackStage<FeatureFallback<double>, double>);
 
 // Never answers: a frame without Manhattan evidence is lost.
 template <Scalar S>
@@ -96,5 +97,6 @@ struct NoFallback {
     return {};
   }
 };
+static_assert(FallbackStage<NoFallback<double>, double>);
 
 }  // namespace sslam

@@ -8,27 +8,38 @@
 #include <optional>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/map/map_deformation.hpp"
 #include "sslam/residual/line_reprojection.hpp"
 #include "sslam/track/contract/loop.hpp"
+#include "sslam/track/contract/place_match.hpp"
 
 namespace sslam {
 
-// A keyframe of one map, here, was found in another, there; or elsewhere in the same one.
 template <Scalar S>
-struct PlaceMatch {
-  Sim3<S> there_from_here;
-  std::vector<Vec3<S>> places;  // of the landmarks that it saw there; of lines, their middles
-};
-
-template <Scalar S>
-class PlaceConfirmation {
- public:
+struct PlaceConfirmationOptions {
   int min_new = 10;      // landmarks beside what the first place match showed
   S apart = S(0.1);      // from that, in the image, over its width
   S min_share = S(0.6);  // of them, that stand where the first place match says
   S reach = 15;          // pixels between that and where they are seen
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_new", self.min_new, Unit::kCount, 1, 10000,
+          "landmarks of a second sighting of a place, beside those of the first");
+    visit("apart", self.apart, Unit::kShare, 0, 1, "of the image's width, between both");
+    visit("min_share", self.min_share, Unit::kShare, 0, 1,
+          "of them, that stand where the first sighting says");
+    visit("reach", self.reach, Unit::kPixels, 0, 1000, "between that and where they are seen");
+  }
+};
+static_assert(Described<PlaceConfirmationOptions<double>>);
+
+template <Scalar S>
+class PlaceConfirmation {
+ public:
+  PlaceConfirmationOptions<S> options;
 
   // Whether a place match and an earlier one bear each other out. `first` becomes the newer one where they
   // contradict each other.
@@ -36,8 +47,8 @@ class PlaceConfirmation {
                                std::optional<PlaceMatch<S>>& first) const {
     if (first) {
       const Tally tally = compare(keyframe, there, loop, *first);
-      if (static_cast<S>(tally.near) >= min_share * static_cast<S>(tally.fresh))
-        return tally.fresh >= min_new;
+      if (static_cast<S>(tally.near) >= options.min_share * static_cast<S>(tally.fresh))
+        return tally.fresh >= options.min_new;
     }
     first = PlaceMatch<S>{loop.there_from_here(keyframe.cam_from_world), {}};
     for (const LandmarkId id : loop.point_landmarks)
@@ -73,12 +84,13 @@ class PlaceConfirmation {
       }
     };
     count(loop.point_landmarks, there.points, [&](const PointLandmark<S>& point, std::size_t i) {
-      return (frame.pinhole.project(expected * point.position) - frame.points[i].pixel).norm() < reach;
+      return (frame.pinhole.project(expected * point.position) - frame.points[i].pixel).norm() <
+             options.reach;
     });
     count(loop.line_landmarks, there.lines, [&](const LineLandmark<S>& landmark, std::size_t i) {
       LineReprojection<S> line;
       return line_reprojection(frame.pinhole, expected, landmark.line, frame.lines[i].segment, line) &&
-             line.error.cwiseAbs().maxCoeff() < reach;
+             line.error.cwiseAbs().maxCoeff() < options.reach;
     });
     return tally;
   }
@@ -91,7 +103,7 @@ class PlaceConfirmation {
       const Vec3<S> in_camera = view * landmark;
       if (in_camera.z() > 0) box.extend(frame.pinhole.project(in_camera));
     }
-    const S margin = apart * static_cast<S>(frame.width);
+    const S margin = options.apart * static_cast<S>(frame.width);
     if (!box.isEmpty()) box = {box.min().array() - margin, box.max().array() + margin};
     return box;
   }

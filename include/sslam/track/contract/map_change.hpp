@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sslam/track/upkeep/map_messages.hpp"
+#include "sslam/track/contract/map_messages.hpp"
 
 namespace sslam {
 
@@ -29,12 +29,16 @@ struct MapChange {
     return cam_from_keyframe * now->pose(keyframe);
   }
 
-  // A frame, or a keyframe, goes along; it loses the matches with landmarks that are gone.
-  template <class View>
-  void carry(KeyframeId reference, View& view) const {
-    view.cam_from_world = pose(reference, view.cam_from_world);
-    forget_gone(view.point_landmarks, now->points, known);
-    forget_gone(view.line_landmarks, now->lines, known);
+  void forget_gone_matches(std::vector<LandmarkId>& point_landmarks,
+                           std::vector<LandmarkId>& line_landmarks) const {
+    forget_gone(point_landmarks, now->points, known);
+    forget_gone(line_landmarks, now->lines, known);
+  }
+
+  // A frame goes along; it loses the matches with landmarks that are gone.
+  void carry(KeyframeId reference, TrackedFrame<S>& frame) const {
+    frame.cam_from_world = pose(reference, frame.cam_from_world);
+    forget_gone_matches(frame.point_landmarks, frame.line_landmarks);
   }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/track/loops/place_match.hpp"
+#include "sslam/track/loops/place_confirmation.hpp"
 
 #include "support/catch.hpp"
 #include "support/map_scene.hpp"
