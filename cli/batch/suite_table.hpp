@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/shell/closest_word.hpp"
+#include "sslam/core/closest_word.hpp"
 #include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {

@@ -3,11 +3,13 @@
 // header.
 #pragma once
 
+#include "sslam/core/closest_word.hpp"
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/inline_vector.hpp"
 #include "sslam/core/median.hpp"
 #include "sslam/core/move_to_end.hpp"
 #include "sslam/core/parameter.hpp"
+#include "sslam/core/parameter_table.hpp"
 #include "sslam/core/random.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/types.hpp"
