@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/track/contract/pose_estimate.hpp"
 #include "sslam/track/matching/match_lines.hpp"
 
@@ -40,7 +41,18 @@ struct MatchOptions {
   S line_radius = 25;   // pixels between a predicted line and the ends of a segment
   PointMatchOptions<S> points;
   LineMatchOptions<S> lines;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("point_radius", self.point_radius, Unit::kPixels, 0.1, kUnbounded,
+          "search window around a predicted point");
+    visit("line_radius", self.line_radius, Unit::kPixels, 0.1, kUnbounded,
+          "search band around a predicted line");
+    visit_within("points.", self.points, visit);
+    visit_within("lines.", self.lines, visit);
+  }
 };
+static_assert(Described<MatchOptions<double>>);
 
 // Drops the frame's matches and finds new ones among the recent landmarks, from the pose that the frame has
 // now.
