@@ -112,4 +112,15 @@ void visit_within(const char* prefix, Options& options, Visit&& visit) {
     std::remove_const_t<Options>::parameters(options, PrefixedVisit(prefix, visit));
 }
 
+// The parameters of a stage: those that it lists itself, or those of its `options`. A stage that has neither
+// has no parameters.
+template <class Stage, class Visit>
+void visit_stage(const char* prefix, Stage& stage, Visit&& visit) {
+  if constexpr (Described<std::remove_const_t<Stage>>)
+    visit_within(prefix, stage, visit);
+  else if constexpr (requires { stage.options; })
+    if constexpr (Described<std::remove_cvref_t<decltype(stage.options)>>)
+      visit_within(prefix, stage.options, visit);
+}
+
 }  // namespace sslam

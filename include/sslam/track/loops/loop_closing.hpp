@@ -60,7 +60,7 @@ class LoopClosing {
     const std::optional<Loop<S>> loop = detection.find(map, id, map);
     if (!loop) return {};
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    const bool drifted = share_in_place(map, keyframe, *loop, fusion.point_radius) < in_place;
+    const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < in_place;
     // A place that the map expects nearby needs no second thing.
     const PlaceConfirmation<S>& check = detection.check;
     if (drifted && share_in_place(map, keyframe, *loop, check.reach) < check.min_share &&
