@@ -11,10 +11,11 @@
 #include <opencv2/line_descriptor.hpp>
 #include <vector>
 
+#include "sslam/image/segment_detector.hpp"
+#include "sslam/image/segment_merger.hpp"
+#include "sslam/image/segment_refiner.hpp"
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/lines/segment_detector.hpp"
-#include "sslam/opencv/lines/segment_merger.hpp"
-#include "sslam/opencv/lines/segment_refiner.hpp"
+#include "sslam/opencv/view_of.hpp"
 
 namespace sslam {
 
@@ -69,9 +70,10 @@ class LineExtractor {
     SegmentRefineOptions refine_options = options.refine;
     refine_options.reach = reach;
     refined_.clear();
+    const auto view = view_of<std::uint8_t>(grey);
     for (const auto& segment : segments_) {
       if (segment.length() < 0.8 * min_length) continue;
-      const RefinedSegment refined = SegmentRefiner::refine(grey, segment, refine_options);
+      const RefinedSegment refined = SegmentRefiner::refine(view, segment, refine_options);
       if (refined.found && refined.segment.length() >= min_length) refined_.push_back(refined);
     }
     std::stable_sort(refined_.begin(), refined_.end(),
@@ -84,7 +86,7 @@ class LineExtractor {
   // Adds the segments of the image, which is a smaller one of the size `full`, in pixels of that.
   void detect(const cv::Mat& image, cv::Size full) {
     found_.clear();
-    detector_.detect(image, found_);
+    detector_.detect(view_of<std::uint8_t>(image), found_);
     const Vec2<double> scale(static_cast<double>(full.width) / image.cols,
                              static_cast<double>(full.height) / image.rows);
     const auto to_full = [&](const Vec2<double>& p) -> Vec2<double> {

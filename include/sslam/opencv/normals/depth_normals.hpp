@@ -10,10 +10,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "sslam/image/inverse_depth_blocks.hpp"
+#include "sslam/image/normal_grid.hpp"
 #include "sslam/opencv/camera/lens_table.hpp"
-#include "sslam/opencv/normals/inverse_depth_blocks.hpp"
-#include "sslam/opencv/normals/normal_grid.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
+#include "sslam/opencv/view_of.hpp"
 
 namespace sslam {
 
@@ -42,7 +43,10 @@ class DepthNormals {
     if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) return NormalStatus::kWrongType;
     const double scale = static_cast<double>(depth.cols) / camera.width;
     if (std::abs(scale * camera.height - depth.rows) > 1) return NormalStatus::kWrongSize;
-    blocks_.build(depth, input.depth_factor, options.min_depth, options.max_depth, 3 * options.noise);
+    if (depth.depth() == CV_16U)
+      build_blocks(view_of<std::uint16_t>(depth), input.depth_factor);
+    else
+      build_blocks(view_of<float>(depth), 1);
     lens_.prepare(camera, blocks_.columns(), blocks_.rows(), InverseDepthBlocks::kBlock, scale);
     focal_ = camera.pinhole.fx * scale;
     grid_.reset(blocks_.columns(), blocks_.rows());
@@ -53,6 +57,11 @@ class DepthNormals {
   }
 
  private:
+  template <class Pixel>
+  void build_blocks(ImageView<Pixel> depth, double factor) {
+    blocks_.build(depth, factor, options.min_depth, options.max_depth, 3 * options.noise);
+  }
+
   void fit(int r, int c) {
     const DepthBlock& centre = blocks_.at(r, c);
     if (!centre.planar) return;

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "sslam/opencv/normals/normal_grid.hpp"
+#include "sslam/image/normal_grid.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
 
 namespace sslam {

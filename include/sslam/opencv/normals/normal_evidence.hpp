@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "sslam/geometry/camera.hpp"
+#include "sslam/image/normal_grid.hpp"
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/normals/normal_grid.hpp"
 
 namespace sslam {
 

@@ -12,12 +12,13 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "sslam/image/corner_refiner.hpp"
+#include "sslam/image/corner_spreader.hpp"
+#include "sslam/image/image_noise.hpp"
+#include "sslam/image/rotated_brief.hpp"
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/points/corner_refiner.hpp"
-#include "sslam/opencv/points/corner_spreader.hpp"
-#include "sslam/opencv/points/image_noise.hpp"
 #include "sslam/opencv/points/image_pyramid.hpp"
-#include "sslam/opencv/points/rotated_brief.hpp"
+#include "sslam/opencv/view_of.hpp"
 
 namespace sslam {
 
@@ -64,8 +65,9 @@ class OrbExtractor {
   // Fills corners_ with at most `budget` corners of a level.
   void detect(const cv::Mat& image, int budget) {
     corners_.clear();
+    const auto view = view_of<std::uint8_t>(image);
     const float lowest =
-        std::max(options.contrast.back(), static_cast<float>(options.noise_factor * image_noise(image)));
+        std::max(options.contrast.back(), static_cast<float>(options.noise_factor * image_noise(view)));
     const int rim =
         kBorder - 3 + 1;  // FAST leaves 3 pixels free by itself, and the refinement may move by a pixel
     const cv::Rect inside(rim, rim, image.cols - 2 * rim, image.rows - 2 * rim);
@@ -76,24 +78,25 @@ class OrbExtractor {
     std::array<float, 3> contrast = options.contrast;
     for (float& c : contrast) c = std::max(c, lowest);
     const int candidates = static_cast<int>(std::lround(options.candidates * budget));
-    spreader_.spread(corners_, image.size(), {options.cell, candidates, 0, contrast, options.enough});
-    std::erase_if(corners_, [&](Corner& corner) { return !CornerRefiner::refine(image, corner); });
-    spreader_.spread(corners_, image.size(), {options.cell, budget, options.min_distance, {}, 0});
+    spreader_.spread(corners_, view.size(), {options.cell, candidates, 0, contrast, options.enough});
+    std::erase_if(corners_, [&](Corner& corner) { return !CornerRefiner::refine(view, corner); });
+    spreader_.spread(corners_, view.size(), {options.cell, budget, options.min_distance, {}, 0});
   }
 
   void describe(std::size_t level, std::vector<PointFeature<double>>& points) {
     if (corners_.empty()) return;
     const cv::Mat& image = pyramid_.image(level);
     cv::GaussianBlur(image, smooth_, {7, 7}, 2, 2, cv::BORDER_REFLECT_101);
+    const auto view = view_of<std::uint8_t>(image), smooth = view_of<std::uint8_t>(smooth_);
     for (const Corner& corner : corners_) {
       const int x = static_cast<int>(std::lround(corner.x)), y = static_cast<int>(std::lround(corner.y));
       PointFeature<double> point;
       point.pixel = pyramid_.to_full({corner.x, corner.y}, level);
       point.sigma = options.sigma * pyramid_.scale(level);
-      const float angle = brief_.orientation(image, x, y);
+      const float angle = brief_.orientation(view, x, y);
       point.angle = angle;
       point.octave = static_cast<std::uint8_t>(level);
-      point.descriptor = brief_.describe(smooth_, x, y, angle);
+      point.descriptor = brief_.describe(smooth, x, y, angle);
       points.push_back(point);
     }
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sslam/core/types.hpp"
-#include "sslam/map/frame.hpp"
+#include "sslam/image/normal_field.hpp"
 
 namespace sslam {
 

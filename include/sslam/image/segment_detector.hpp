@@ -8,11 +8,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "sslam/geometry/line2.hpp"
-#include "sslam/opencv/lines/level_lines.hpp"
+#include "sslam/image/level_lines.hpp"
 
 namespace sslam {
 
@@ -26,15 +25,15 @@ class SegmentDetector {
  public:
   SegmentDetectorOptions options;
 
-  // Adds the segments of `image` (8 bit, one channel) in its pixels. The brighter side lies to the left hand
+  // Adds the segments of the grey `image` in its pixels. The brighter side lies to the left hand
   // of start -> end (x right, y down).
-  void detect(const cv::Mat& image, std::vector<Segment2<double>>& segments) {
+  void detect(ImageView<std::uint8_t> image, std::vector<Segment2<double>>& segments) {
     // Below this slope the error of the gradient turns its direction by more than the tolerance.
     const double tolerance = radians(options.max_angle_deg);
     level_lines_.compute(image, static_cast<float>(options.gradient_error / std::sin(tolerance)));
     taken_.assign(level_lines_.size(), 1);
     for (const int place : level_lines_.places()) taken_[index(place)] = 0;
-    const std::size_t least = smallest_region(image.cols, image.rows);
+    const std::size_t least = smallest_region(image.size());
     for (const int seed : level_lines_.places()) {
       if (taken_[index(seed)]) continue;
       grow(seed, tolerance);
@@ -65,8 +64,8 @@ class SegmentDetector {
 
   // Of so many places, or more, whose level lines agree by chance, less than one region is expected in an
   // image of noise: width, height and place of a rectangle are (w h)^(5/2) choices, each with 11 tolerances.
-  [[nodiscard]] std::size_t smallest_region(int width, int height) const noexcept {
-    const double tests = 2.5 * (std::log10(width) + std::log10(height)) + std::log10(11.0);
+  [[nodiscard]] std::size_t smallest_region(ImageSize size) const noexcept {
+    const double tests = 2.5 * (std::log10(size.width) + std::log10(size.height)) + std::log10(11.0);
     return static_cast<std::size_t>(-tests / std::log10(options.max_angle_deg / 180));
   }
 
