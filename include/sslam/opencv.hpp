@@ -19,6 +19,7 @@
 #include "sslam/opencv/normals/normal_source.hpp"
 #include "sslam/opencv/normals/onnx_network.hpp"
 #include "sslam/opencv/normals/onnx_normals.hpp"
+#include "sslam/opencv/parameters.hpp"
 #include "sslam/opencv/points/image_pyramid.hpp"
 #include "sslam/opencv/points/orb_extractor.hpp"
 #include "sslam/opencv/side_thread.hpp"

@@ -8,18 +8,31 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/line2.hpp"
 #include "sslam/image/level_lines.hpp"
 
 namespace sslam {
 
 struct SegmentDetectorOptions {
-  double gradient_error = 1;    // bound on it, grey levels a pixel: lower finds fainter edges
-  double max_angle_deg = 22.5;  // between the level lines of a region and their mean
-  double min_density = 0.7;     // of a region in its rectangle: less is a curve, or two edges
+  double gradient_error = 1;         // bound on it, grey levels a pixel: lower finds fainter edges
+  double max_angle = radians(22.5);  // between the level lines of a region and their mean
+  double min_density = 0.7;          // of a region in its rectangle: less is a curve, or two edges
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("gradient_error", self.gradient_error, Unit::kNumber, 0.01, 255,
+          "grey levels a pixel: lower finds fainter edges");
+    visit("max_angle", self.max_angle, Unit::kDegrees, 1, 60,
+          "between the level lines of a region and their mean");
+    visit("min_density", self.min_density, Unit::kShare, 0, 1,
+          "of a region in its rectangle: less is a curve, or two edges");
+  }
 };
+static_assert(Described<SegmentDetectorOptions>);
 
 class SegmentDetector {
  public:
@@ -29,7 +42,7 @@ class SegmentDetector {
   // of start -> end (x right, y down).
   void detect(ImageView<std::uint8_t> image, std::vector<Segment2<double>>& segments) {
     // Below this slope the error of the gradient turns its direction by more than the tolerance.
-    const double tolerance = radians(options.max_angle_deg);
+    const double tolerance = options.max_angle;
     level_lines_.compute(image, static_cast<float>(options.gradient_error / std::sin(tolerance)));
     taken_.assign(level_lines_.size(), 1);
     for (const int place : level_lines_.places()) taken_[index(place)] = 0;
@@ -66,7 +79,7 @@ class SegmentDetector {
   // image of noise: width, height and place of a rectangle are (w h)^(5/2) choices, each with 11 tolerances.
   [[nodiscard]] std::size_t smallest_region(ImageSize size) const noexcept {
     const double tests = 2.5 * (std::log10(size.width) + std::log10(size.height)) + std::log10(11.0);
-    return static_cast<std::size_t>(-tests / std::log10(options.max_angle_deg / 180));
+    return static_cast<std::size_t>(-tests / std::log10(options.max_angle / std::numbers::pi));
   }
 
   // The region around the seed whose level lines lie within `tolerance`, radians, of the mean of those

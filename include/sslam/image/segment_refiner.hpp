@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "sslam/core/inline_vector.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/line2.hpp"
 #include "sslam/image/image_view.hpp"
 
@@ -19,7 +20,16 @@ struct SegmentRefineOptions {
   double min_support = 0.5;  // share of the samples that must show the edge
   double floor_sigma =
       0.2;  // of an endpoint across the segment, pixels: what the fit's own scatter does not show
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("reach", self.reach, Unit::kPixels, 1, 6, "searched on either side of a segment");
+    visit("min_support", self.min_support, Unit::kShare, 0, 1, "of the samples that must show the edge");
+    visit("floor_sigma", self.floor_sigma, Unit::kPixels, 0.001, 100,
+          "of an end across the segment: the least standard deviation");
+  }
 };
+static_assert(Described<SegmentRefineOptions>);
 
 struct RefinedSegment {
   Segment2<double> segment;

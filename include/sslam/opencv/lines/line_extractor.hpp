@@ -11,6 +11,7 @@
 #include <opencv2/line_descriptor.hpp>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/image/segment_detector.hpp"
 #include "sslam/image/segment_merger.hpp"
 #include "sslam/image/segment_refiner.hpp"
@@ -27,7 +28,22 @@ struct LineOptions {
   int max_lines = 250;             // longest kept
   SegmentMergeOptions merge;
   SegmentRefineOptions refine;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("octaves", self.octaves, Unit::kCount, 1, 2,
+          "1: half resolution; 2: 0.8 of the full resolution as well");
+    visit("min_length_ratio", self.min_length_ratio, Unit::kShare, 0, 1,
+          "length of a segment over the longer side of the image");
+    visit("border", self.border, Unit::kPixels, 0, kUnbounded,
+          "segments that run along the border within this are left out");
+    visit("max_lines", self.max_lines, Unit::kCount, 0, 1e+06, "longest kept");
+    visit_within("detector.", self.detector, visit);
+    visit_within("merge.", self.merge, visit);
+    visit_within("refine.", self.refine, visit);
+  }
 };
+static_assert(Described<LineOptions>);
 
 class LineExtractor {
  public:

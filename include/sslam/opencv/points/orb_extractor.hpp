@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/image/corner_refiner.hpp"
 #include "sslam/image/corner_spreader.hpp"
 #include "sslam/image/image_noise.hpp"
@@ -33,7 +34,29 @@ struct OrbOptions {
   double candidates = 2;    // FAST corners that are localised, for each point wanted
   int min_distance = 3;     // between two points of a level, pixels of the level
   double sigma = 0.5;       // of a coordinate at level 0, pixels; grows with the level's scale
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("points", self.points, Unit::kCount, 0, 1e+06, "at most, over all levels");
+    visit("levels", self.levels, Unit::kCount, 1, 32, "of the pyramid");
+    visit("ratio", self.ratio, Unit::kNumber, 1.01, 4, "size of a level over the size of the next");
+    visit("cell", self.cell, Unit::kPixels, 8, 10000, "side of a grid cell, of the level");
+    visit("contrast.first", self.contrast[0], Unit::kNumber, 1, 255,
+          "of FAST, grey levels: a cell uses the first that finds enough");
+    visit("contrast.second", self.contrast[1], Unit::kNumber, 1, 255, "where the first finds too few");
+    visit("contrast.last", self.contrast[2], Unit::kNumber, 1, 255, "where the second finds too few");
+    visit("noise_factor", self.noise_factor, Unit::kNumber, 0, 1000,
+          "contrast never falls below so many sigma of the image's noise");
+    visit("enough", self.enough, Unit::kCount, 0, 1e+06, "corners in a cell");
+    visit("candidates", self.candidates, Unit::kNumber, 1, 100,
+          "corners that are localised, for each point wanted");
+    visit("min_distance", self.min_distance, Unit::kPixels, 0, 1000,
+          "between two points of a level, of the level");
+    visit("sigma", self.sigma, Unit::kPixels, 0.001, 100,
+          "of a coordinate at full resolution, standard deviation");
+  }
 };
+static_assert(Described<OrbOptions>);
 
 class OrbExtractor {
  public:
