@@ -23,6 +23,7 @@
 #include "cli/view/live_view.hpp"
 #include "cli/view/view_options.hpp"
 #include "sslam/io/maps/map_file.hpp"
+#include "sslam/opencv/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -44,16 +45,18 @@ void run(RunSettings settings) {
   }
   TrackSettings track;
   track.seed = settings.seed;
-  track.overrides = check_overrides(preset, settings.set);
+  (void)set_parameters(preset, settings.set);  // refused before anything is read
   if (!settings.map.empty()) track.map = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
 
   StreamSettings stream_settings;
-  stream_settings.camera = camera.camera;
+  stream_settings.frontend.camera = camera.camera;
   stream_settings.depth_factor = camera.depth_factor;
-  stream_settings.normals = choose_normals(settings.normals);
+  stream_settings.frontend.normals = choose_normals(settings.normals);
+  track.parameters = set_parameters(preset, settings.set, stream_settings.frontend);
+  write_frontend_parameters(track.parameters, stream_settings.frontend);
   io::prepare_output_folder(settings.out);
   if (settings.live) stream_settings.pace = dataset.seconds_per_stamp;
   stream_settings.use_points = preset.use_points;

@@ -7,8 +7,6 @@ namespace sslam::cli {
 
 FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
     : dataset_(dataset), settings_(std::move(settings)), reader_(dataset) {
-  frontend_.camera = settings_.camera;
-  frontend_.normals = std::move(settings_.normals);
   producer_ = std::thread([this] { produce(); });
 }
 
@@ -79,7 +77,7 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   std::string why;
   input.image = reader_.read(entry, why);
   if (!input.image.empty()) read_depth(entry, input, out);
-  out.report = frontend_.process(input, out.frame);
+  out.report = settings_.frontend.process(input, out.frame);
   out.usable = out.report.image == ImageStatus::kOk;
   if (!out.usable) {
     if (why.empty()) why = entry.image + ": " + name(out.report.image);
@@ -100,11 +98,11 @@ void FrameStream::keep_pictures(const ImageInput& input, ExtractedFrame& out) co
   out.picture = input.image;
   const bool seen =
       out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
-  out.normal_picture = seen ? frontend_.normals.small_picture() : cv::Mat();
+  out.normal_picture = seen ? settings_.frontend.normals.small_picture() : cv::Mat();
 }
 
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {
-  if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(frontend_.normals.source)) return;
+  if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(settings_.frontend.normals.source)) return;
   input.depth_factor = settings_.depth_factor;
   std::string why;
   input.depth = load_depth(entry.depth, dataset_.layout, why);

@@ -21,9 +21,8 @@
 namespace sslam::cli {
 
 struct StreamSettings {
-  Camera<double> camera;
+  ImageFrontend<NormalChoice> frontend;
   double depth_factor = 5000;  // depth image units a metre
-  NormalChoice normals;
   bool use_points = true;
   bool use_lines = true;
   bool keep_pictures = false;  // hand the images on with their frames
@@ -48,7 +47,7 @@ class FrameStream {
   FrameStream& operator=(const FrameStream&) = delete;
 
   [[nodiscard]] std::size_t size() const noexcept { return dataset_.frames.size(); }
-  [[nodiscard]] const Camera<double>& camera() const noexcept { return settings_.camera; }
+  [[nodiscard]] const Camera<double>& camera() const noexcept { return settings_.frontend.camera; }
 
   // The next frame in order; false at the end. The old contents of `out` are recycled.
   [[nodiscard]] bool next(ExtractedFrame& out);
@@ -62,7 +61,6 @@ class FrameStream {
 
   const io::Dataset& dataset_;
   StreamSettings settings_;
-  ImageFrontend<NormalChoice> frontend_;
   FrameReader reader_;
 
   using Clock = std::chrono::steady_clock;

@@ -47,6 +47,17 @@ cv::Mat NormalChoice::small_picture() const {
   return {};
 }
 
+void collect_normal_parameters(ParameterTable& table) {
+  const DepthNormalsOptions depth;
+  const FileNormalsOptions files;
+  const OnnxNormalsOptions network;
+  table.collect([&](auto& visit) {
+    visit_within("normals.depth.", depth, visit);
+    visit_within("normals.files.", files, visit);
+    visit_within("normals.onnx.", network, visit);
+  });
+}
+
 NormalChoice choose_normals(const std::string& text) {
   constexpr std::string_view kFiles = "files:", kOnnx = "onnx:";
   if (text == "none") return {NoNormals{}};

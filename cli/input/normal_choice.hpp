@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "sslam/core/parameter_table.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"
 #include "sslam/opencv/normals/file_normals.hpp"
 #include "sslam/opencv/normals/no_normals.hpp"
@@ -19,10 +20,21 @@ struct NormalChoice {
     return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
   }
 
+  // Of the chosen source, which comes before their names: "depth.max_depth".
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    if (auto* depth = std::get_if<DepthNormals>(&self.source)) visit_stage("depth.", *depth, visit);
+    if (auto* files = std::get_if<FileNormals>(&self.source)) visit_stage("files.", *files, visit);
+    if (auto* network = std::get_if<OnnxNormals>(&self.source)) visit_stage("onnx.", *network, visit);
+  }
+
   // The normals of the last frame, to look at; empty where there is no source of them.
   [[nodiscard]] cv::Mat small_picture() const;
 };
-static_assert(NormalSource<NormalChoice>);
+static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);
+
+// The same of every source, with their defaults.
+void collect_normal_parameters(ParameterTable& table);
 
 // From "none", "depth", "files:DIR", "onnx" (the shipped model) or "onnx:FILE". Throws a std::exception with
 // one line for anything else, and for a folder or a model that does not do.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sslam/core/parameter_table.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
@@ -54,11 +55,6 @@ struct FrameRecord {
   [[nodiscard]] float frame_ms() const noexcept { return extraction_ms + tracking_ms; }
 };
 
-struct ParameterValue {
-  std::string name;
-  double value = 0;
-};
-
 struct RunOutcome {
   std::vector<FrameRecord> frames;
   io::Trajectory trajectory;  // by the keyframes' final poses, world from camera
@@ -67,7 +63,7 @@ struct RunOutcome {
   int world = 0;                 // that the map is of
   std::size_t maps_apart = 0;    // that were left, and never joined with this one
   std::size_t frames_apart = 0;  // that were tracked in them
-  std::vector<ParameterValue> parameters;
+  std::vector<Parameter> parameters;
   std::vector<std::string> warnings;
   std::vector<std::string> views;  // frames as encode_frame_view gives them
   double wall_seconds = 0;         // of the whole loop

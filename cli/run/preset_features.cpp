@@ -5,6 +5,10 @@
 
 namespace sslam::cli {
 
+ParameterTable features_parameters() {
+  return parameters_of(presets::Features<double, WallTimer>());
+}
+
 RunOutcome run_features(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
   presets::Features<double, WallTimer> pipeline;
   return track_sequence(pipeline, stream, settings, progress);

@@ -5,6 +5,10 @@
 
 namespace sslam::cli {
 
+ParameterTable odometry_parameters() {
+  return parameters_of(presets::Odometry<double, WallTimer>());
+}
+
 RunOutcome run_odometry(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
   presets::Odometry<double, WallTimer> pipeline;
   return track_sequence(pipeline, stream, settings, progress);

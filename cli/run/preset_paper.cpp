@@ -5,6 +5,10 @@
 
 namespace sslam::cli {
 
+ParameterTable paper_parameters() {
+  return parameters_of(presets::Paper<double, WallTimer>());
+}
+
 RunOutcome run_paper(FrameStream& stream, const TrackSettings& settings, Progress& progress) {
   presets::Paper<double, WallTimer> pipeline;
   return track_sequence(pipeline, stream, settings, progress);

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
-#include <string>
-
 #include "cli/run/kernels.hpp"
 #include "cli/run/presets.hpp"
 #include "cli/run/track_sequence.hpp"
@@ -13,18 +10,12 @@ using Pipeline = presets::Structure<double, WallTimer>;
 
 }  // namespace
 
-std::string describe_parameters() {
-  Pipeline pipeline;
-  std::string text;
-  visit_parameters(pipeline, [&](const char* name, const auto& value, Unit unit, const char* meaning) {
-    const bool angle = unit == Unit::kDegrees;
-    char line[256];
-    std::snprintf(line, sizeof line, "%-34s %8g %-7s %s\n", name,
-                  static_cast<double>(value) * (angle ? detail::kDegreesPerRadian : 1),
-                  angle ? "degrees" : (unit == Unit::kPixels ? "pixels" : ""), meaning);
-    text += line;
-  });
-  return text;
+ParameterTable structure_parameters() {
+  return parameters_of(Pipeline());
+}
+
+ParameterTable lines_parameters() {
+  return parameters_of(make_pipeline<Pipeline>(false));
 }
 
 RunOutcome run_structure(FrameStream& stream, const TrackSettings& settings, Progress& progress) {

@@ -23,8 +23,12 @@ namespace sslam::cli {
 [[nodiscard]] RunOutcome run_features(FrameStream&, const TrackSettings&, Progress&);  // preset_features.cpp
 [[nodiscard]] RunOutcome run_odometry(FrameStream&, const TrackSettings&, Progress&);  // preset_odometry.cpp
 
-// Name, default, unit and meaning of every parameter of the fullest preset, a line each.
-[[nodiscard]] std::string describe_parameters();  // preset_structure.cpp
+// Of each preset's pipeline, none of them set; beside its run.
+[[nodiscard]] ParameterTable structure_parameters();
+[[nodiscard]] ParameterTable lines_parameters();
+[[nodiscard]] ParameterTable paper_parameters();
+[[nodiscard]] ParameterTable features_parameters();
+[[nodiscard]] ParameterTable odometry_parameters();
 
 struct Preset {
   std::string_view name;
@@ -32,21 +36,24 @@ struct Preset {
   bool use_points;
   bool use_lines;
   bool use_normals;
+  ParameterTable (*parameters)();
   RunOutcome (*run)(FrameStream&, const TrackSettings&, Progress&);
   RunOutcome (*run_live)(FrameStream&, const TrackSettings&, Progress&) = nullptr;  // with --live, if it can
 };
 
 inline constexpr std::array<Preset, 6> kPresets{{
     {"structure", "Manhattan rotation, points and lines, local bundle adjustment", true, true, true,
+     structure_parameters, run_structure, run_structure_live},
+    {"paper", "the same without bundle adjustment, as published", true, true, true, paper_parameters,
+     run_paper},
+    {"points", "Manhattan rotation from normals, points alone", true, false, true, structure_parameters,
      run_structure, run_structure_live},
-    {"paper", "the same without bundle adjustment, as published", true, true, true, run_paper},
-    {"points", "Manhattan rotation from normals, points alone", true, false, true, run_structure,
-     run_structure_live},
     {"lines", "Manhattan rotation, lines, and no points but those that start the map", true, true, true,
-     run_lines, run_lines_live},
+     lines_parameters, run_lines, run_lines_live},
     {"features", "no Manhattan world: points and lines, six degrees of freedom", true, true, false,
-     run_features},
-    {"odometry", "frame to frame, no refinement against the local map", true, true, true, run_odometry},
+     features_parameters, run_features},
+    {"odometry", "frame to frame, no refinement against the local map", true, true, true, odometry_parameters,
+     run_odometry},
 }};
 
 }  // namespace sslam::cli

@@ -2,49 +2,28 @@
 #include "cli/run/run_check.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <string_view>
 #include <utility>
 
 #include "cli/input/image_file.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/opencv/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
 
-ParameterValue parse_override(const std::string& text) {
+void check(const ParameterAnswer& answer) {
+  if (!answer.ok()) throw io::Error("--set " + answer.message);
+}
+
+void set_one(const std::string& text, ParameterTable& table) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value || !std::isfinite(*value)) throw io::Error("--set " + text + ": wants stage.parameter=number");
-  return {text.substr(0, equals), *value};
-}
-
-// Parameters of which one must stay below another, and what a run would else do without a word.
-struct Order {
-  std::string_view low, high, otherwise;
-};
-constexpr std::array<Order, 2> kOrders{{
-    {"rotation.squareness", "rotation.max_sigma", "no rotation would be trusted"},
-    {"rotation.narrowest_kernel", "rotation.widest_kernel", "the search could not narrow"},
-}};
-
-void check_orders(const std::vector<ParameterValue>& parameters) {
-  const auto find = [&](std::string_view name) {
-    return std::find_if(parameters.begin(), parameters.end(),
-                        [name](const ParameterValue& parameter) { return parameter.name == name; });
-  };
-  for (const Order& order : kOrders) {
-    const auto low = find(order.low), high = find(order.high);
-    if (low == parameters.end() || high == parameters.end() || low->value < high->value) continue;
-    char values[80];
-    std::snprintf(values, sizeof values, "%g is not below the %g of ", low->value, high->value);
-    throw io::Error("--set " + low->name + ": " + values + high->name + ": " + std::string(order.otherwise));
-  }
+  if (!value) throw io::Error("--set " + text + ": wants stage.parameter=number");
+  check(table.set(text.substr(0, equals), *value));
 }
 
 }  // namespace
@@ -102,15 +81,30 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
     throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
 
-std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
-  TrackSettings track;
-  for (const std::string& text : set) track.overrides.push_back(parse_override(text));
-  // A run over no frames refuses what a run over many would.
-  const io::Dataset nothing;
-  FrameStream stream(nothing, {});
-  Progress silent(0, Verbosity::kQuiet, "run");
-  check_orders(preset.run(stream, track, silent).parameters);
-  return std::move(track.overrides);
+ParameterTable set_parameters(const Preset& preset, const std::vector<std::string>& set,
+                              const ImageFrontend<NormalChoice>& frontend) {
+  ParameterTable table = preset.parameters();
+  collect_frontend_parameters(frontend, table);
+  collect_normal_parameters(table);
+  for (const std::string& text : set) set_one(text, table);
+  check(table.check());
+  return table;
+}
+
+std::string describe_parameters() {
+  std::string text, group;
+  for (const Parameter& parameter : set_parameters(kPresets.front(), {}).entries()) {
+    const std::string stage = parameter.name.substr(0, parameter.name.find('.'));
+    if (!group.empty() && stage != group) text += '\n';
+    group = stage;
+    const char* const unit = name(parameter.unit);
+    char line[256];
+    std::snprintf(line, sizeof line, "%-44s %8g  %-8s %-18s  %s\n", parameter.name.c_str(), parameter.initial,
+                  *unit == '\0' ? "-" : unit, ParameterTable::range(parameter).c_str(),
+                  parameter.meaning.c_str());
+    text += line;
+  }
+  return text;
 }
 
 }  // namespace sslam::cli

@@ -12,52 +12,17 @@
 #include "cli/results/frame_record.hpp"
 #include "cli/results/frame_view.hpp"
 #include "cli/results/map_figures.hpp"
-#include "cli/run/parameters.hpp"
 #include "cli/run/track_settings.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/progress.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/track/parameters.hpp"
 
 namespace sslam::cli {
 
 namespace detail {
 
-constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
-
 constexpr float milliseconds(double seconds) noexcept {
   return static_cast<float>(seconds * 1e3);
-}
-
-template <class P>
-std::vector<ParameterValue> list_parameters(P& pipeline) {
-  std::vector<ParameterValue> values;
-  visit_parameters(pipeline, [&](const char* name, const auto& value, Unit unit, const char*) {
-    const double scale = unit == Unit::kDegrees ? kDegreesPerRadian : 1;
-    values.push_back({name, static_cast<double>(value) * scale});
-  });
-  return values;
-}
-
-template <class P>
-void override_parameters(P& pipeline, const std::vector<ParameterValue>& overrides) {
-  for (const ParameterValue& wanted : overrides) {
-    bool known = false;
-    visit_parameters(pipeline, [&](const char* name, auto& value, Unit unit, const char*) {
-      if (wanted.name != name) return;
-      using Value = std::remove_reference_t<decltype(value)>;
-      const double inside = unit == Unit::kDegrees ? wanted.value / kDegreesPerRadian : wanted.value;
-      if (inside < 0) throw io::Error("--set " + wanted.name + ": wants no negative number");
-      if constexpr (std::is_integral_v<Value>) {
-        constexpr Value kMost = std::numeric_limits<Value>::max();
-        if (inside != std::floor(inside) || inside >= static_cast<double>(kMost))
-          throw io::Error("--set " + wanted.name + ": wants a whole number below " + std::to_string(kMost));
-      }
-      value = static_cast<Value>(inside);
-      known = true;
-    });
-    if (!known)
-      throw io::Error("--set " + wanted.name + ": no such parameter in this preset; see --list-parameters");
-  }
 }
 
 template <class P>
@@ -82,12 +47,12 @@ void collect_map(const P& pipeline, std::size_t known_keyframes, RunOutcome& out
 template <class P>
 RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings& settings,
                           Progress& progress) {
-  detail::override_parameters(pipeline, settings.overrides);
+  write_parameters(settings.parameters, pipeline);
   if constexpr (requires { pipeline.rotation.seed; }) pipeline.rotation.seed = settings.seed;
   if constexpr (requires { pipeline.initialisation.seed; }) pipeline.initialisation.seed = settings.seed;
   if (!settings.map.empty()) pipeline.resume(settings.map);
   RunOutcome outcome;
-  outcome.parameters = detail::list_parameters(pipeline);
+  outcome.parameters = settings.parameters.entries();
   outcome.frames.reserve(stream.size());
   const Interrupt interrupt;
   WallTimer wall;
@@ -129,12 +94,26 @@ RunOutcome track_sequence(P& pipeline, FrameStream& stream, const TrackSettings&
   return outcome;
 }
 
+// The parameters of a pipeline, none of them set.
+template <class P>
+ParameterTable parameters_of(const P& pipeline) {
+  ParameterTable table;
+  collect_parameters(pipeline, table);
+  return table;
+}
+
+template <class P>
+P make_pipeline(bool new_points = true) {
+  P pipeline;
+  pipeline.mapping.creation.options.use_points = new_points;
+  return pipeline;
+}
+
 // The same with a pipeline of its own. Without `new_points` there are no points but those that start the map.
 template <class P>
 RunOutcome run_pipeline(FrameStream& stream, const TrackSettings& settings, Progress& progress,
                         bool new_points = true) {
-  P pipeline;
-  pipeline.mapping.creation.options.use_points = new_points;
+  P pipeline = make_pipeline<P>(new_points);
   return track_sequence(pipeline, stream, settings, progress);
 }
 

@@ -26,7 +26,7 @@ struct WatchedFrame {
 using FrameWatcher = std::function<void(const WatchedFrame&)>;
 
 struct TrackSettings {
-  std::vector<ParameterValue> overrides;  // of --set, in the units of --list-parameters
+  ParameterTable parameters;  // with what --set changes
   std::uint64_t seed = 1;
   Map<double> map;                     // of an earlier run, to go on in; empty: none
   std::size_t view_stride = 0;         // every n-th frame is kept for the report; 0: none

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -33,7 +36,7 @@ struct ParameterOrder {
   std::string_view low, high, otherwise;
 };
 
-enum class ParameterFault { kNone, kUnknown, kNotFinite, kNotWhole, kOutOfRange, kDisordered };
+enum class ParameterFault : std::uint8_t { kNone, kUnknown, kNotFinite, kNotWhole, kOutOfRange, kDisordered };
 
 struct ParameterAnswer {
   ParameterFault fault = ParameterFault::kNone;
@@ -79,7 +82,8 @@ class ParameterTable {
     if (parameter.whole && value != std::floor(value))
       return {ParameterFault::kNotWhole, what + "not a whole number"};
     if (value < parameter.least || value > parameter.most)
-      return {ParameterFault::kOutOfRange, what + "out of range: " + range(parameter)};
+      return {ParameterFault::kOutOfRange,
+              what + "out of range: " + range(parameter) + in_unit(parameter.unit)};
     parameter.value = value;
     parameter.changed = true;
     return {};
@@ -97,12 +101,10 @@ class ParameterTable {
     return {};
   }
 
-  // "0 to 1, in share"; "at least 0" where there is no upper end.
+  // "0 to 1"; "at least 0" where there is no upper end.
   [[nodiscard]] static std::string range(const Parameter& parameter) {
-    std::string out = std::isfinite(parameter.most) ? text(parameter.least) + " to " + text(parameter.most)
-                                                    : "at least " + text(parameter.least);
-    if (parameter.unit != Unit::kNumber) out += std::string(", in ") + sslam::name(parameter.unit);
-    return out;
+    return std::isfinite(parameter.most) ? text(parameter.least) + " to " + text(parameter.most)
+                                         : "at least " + text(parameter.least);
   }
 
   [[nodiscard]] static std::string text(double value) {
@@ -138,6 +140,10 @@ class ParameterTable {
         value = static_cast<T>(parameter->value * inside_unit(unit));
     }
   };
+
+  [[nodiscard]] static std::string in_unit(Unit unit) {
+    return unit == Unit::kNumber ? "" : std::string(", in ") + name(unit);
+  }
 
   [[nodiscard]] ParameterAnswer unknown(std::string_view name) const {
     std::vector<std::string> names;
