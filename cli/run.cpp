@@ -41,20 +41,6 @@ class ProgressObserver : public Observer {
   Progress& progress_;
 };
 
-// Name, default, unit and meaning of every parameter of the fullest preset, a line each.
-std::string parameter_list() {
-  std::string text;
-  for (const ParameterInfo& parameter : find_preset("structure").make()->parameters()) {
-    const bool plain =
-        parameter.unit == Unit::kNumber || parameter.unit == Unit::kShare || parameter.unit == Unit::kCount;
-    char line[256];
-    std::snprintf(line, sizeof line, "%-34s %8g %-7s %s\n", parameter.name.c_str(), parameter.value,
-                  plain ? "" : name(parameter.unit), parameter.meaning.c_str());
-    text += line;
-  }
-  return text;
-}
-
 }  // namespace
 
 void run(RunSettings settings) {
@@ -67,7 +53,7 @@ void run(RunSettings settings) {
   }
   Settings wanted;
   wanted.preset = settings.preset;
-  wanted.parameters = check_overrides(preset, settings.set);
+  wanted.parameters = set_parameters(preset, settings.set);
   Map<double> known;
   if (!settings.map.empty()) known = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
@@ -153,7 +139,7 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--set", s->set, "stage.parameter=value, see --list-parameters; may be repeated");
   const auto list = [] {
-    std::fputs(parameter_list().c_str(), stdout);
+    std::fputs(describe_parameters().c_str(), stdout);
     throw CLI::Success();
   };
   command->add_flag_callback("--list-parameters", list, "Print what --set can change, and stop")

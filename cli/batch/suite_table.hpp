@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/shell/closest_word.hpp"
+#include "sslam/core/closest_word.hpp"
 #include "sslam/core/error.hpp"
 
 namespace sslam::cli {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sslam/core/parameter_table.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/system/engine.hpp"
@@ -23,7 +24,7 @@ struct RunOutcome {
   Map<double> map;
   int world = 0;  // that the map is of
   MapsApart apart;
-  std::vector<ParameterInfo> parameters;
+  std::vector<Parameter> parameters;
   std::vector<std::string> warnings;
   std::vector<std::string> views;  // frames as encode_frame_view gives them
   double wall_seconds = 0;         // of the whole loop

@@ -223,7 +223,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);
   metrics["warnings"] = outcome.warnings;
   Json settings = settings_json(context), parameters;
-  for (const ParameterInfo& p : outcome.parameters) parameters[p.name] = p.value;
+  for (const Parameter& p : outcome.parameters) parameters[p.name] = p.value;
   settings["parameters"] = parameters;
   metrics["settings"] = settings;
   metrics["versions"] = versions_json();

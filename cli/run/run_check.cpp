@@ -2,8 +2,6 @@
 #include "cli/run/run_check.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string_view>
@@ -13,11 +11,16 @@
 #include "cli/shell/messages.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/opencv/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
 
-ParameterValue parse_override(const std::string& text) {
+void check(const ParameterAnswer& answer) {
+  if (!answer.ok()) throw io::Error("--set " + answer.message);
+}
+
+void set_one(const std::string& text, ParameterTable& table) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));

@@ -26,7 +26,12 @@ void check_live(const RunSettings& settings, const Preset& preset);
 // Whether the dataset has what settings.normals need.
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 
-// Each "stage.parameter=value", if the preset has all these parameters and they take these values.
-std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set);
+// The parameters of a run with the preset, its front end and every source of normals. Each
+// of `set` is a "stage.parameter=value" that they take.
+ParameterTable set_parameters(const Preset& preset, const std::vector<std::string>& set,
+                              const ImageFrontend<NormalChoice>& frontend = {});
+
+// Them all by stage: name, default, unit, range and meaning, a line each.
+[[nodiscard]] std::string describe_parameters();
 
 }  // namespace sslam::cli

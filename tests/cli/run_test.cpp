@@ -146,11 +146,36 @@ TEST_CASE("run takes its options from a file and its parameters from the command
                   "'strid' is not an option");
 }
 
+TEST_CASE("run sets parameters of the front end") {
+  const Copy copy;
+  const Outcome outcome = copy.run("--end 10 --set points.points=200 --set lines.max_lines=20");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(copy.metrics()["settings"]["parameters"]["points.points"] == 200);
+  std::istringstream table(text_of(copy.out / "frames.csv"));
+  std::string header, row;
+  std::getline(table, header);
+  const auto column = [](const std::string& line, const std::string& names, const std::string& wanted) {
+    std::istringstream cells(line), heads(names);
+    std::string cell, head;
+    while (std::getline(heads, head, ',') && std::getline(cells, cell, ','))
+      if (head == wanted) return std::stoi(cell);
+    return -1;
+  };
+  while (std::getline(table, row)) {
+    REQUIRE(column(row, header, "points") > 0);
+    REQUIRE(column(row, header, "points") <= 200);
+    REQUIRE(column(row, header, "lines") <= 20);
+  }
+}
+
 TEST_CASE("run lists its parameters without a dataset") {
   const Outcome outcome = run_program("run --list-parameters");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
-  REQUIRE(outcome.text.find("keyframes.min_shared") != std::string::npos);
+  for (const char* name : {"keyframes.min_shared", "points.points", "lines.merge.max_gap",
+                           "normals.depth.noise", "normals.onnx.max_bad_share"})
+    REQUIRE(outcome.text.find(name) != std::string::npos);
 }
 
 TEST_CASE("run goes on over a single bad frame and names it") {
@@ -275,12 +300,14 @@ TEST_CASE("run refuses what it cannot use with one line") {
   require_refused(copy.run("--normals onnx:" + (copy.folder / "camera.yaml").string()), "camera.yaml");
   require_refused(copy.run("--preset velvet"), "--preset velvet");
   require_refused(copy.run("--set keyframes.min_gap=many"), "--set keyframes.min_gap=many");
-  require_refused(copy.run("--set keyframes.gap=2"), "no such parameter");
+  require_refused(copy.run("--set keyframes.min_gab=2"),
+                  "--set keyframes.min_gab: no such parameter here; did you mean keyframes.min_gap?");
   require_refused(copy.run("--preset features --set rotation.frames=2"), "no such parameter");
-  require_refused(copy.run("--set keyframes.min_gap=2.5"),
-                  "--set keyframes.min_gap: expected a whole number");
-  require_refused(copy.run("--set keyframes.min_gap=1e10"), "expected a whole number below 2147483647");
-  require_refused(copy.run("--set keyframes.max_turn=-8"), "--set keyframes.max_turn: must not be negative");
+  require_refused(copy.run("--set keyframes.min_gap=2.5"), "--set keyframes.min_gap=2.5: not a whole number");
+  require_refused(copy.run("--set keyframes.min_gap=1e10"), "out of range: 1 to 1000, in count");
+  require_refused(copy.run("--set keyframes.max_turn=-8"), "out of range: 0 to 180, in degrees");
+  require_refused(copy.run("--set keyframes.min_shared=1.4"),
+                  "--set keyframes.min_shared=1.4: out of range: 0 to 1, in share");
   require_refused(copy.run("--set rotation.squareness=3"),
                   "--set rotation.squareness: 3 is not below the 1.5 of rotation.max_sigma: no rotation "
                   "would be trusted");

@@ -52,8 +52,8 @@ TEST_CASE("The map starts once a turn in place becomes a walk") {
 TEST_CASE("A map that starts late reaches back to where the walk began") {
   Simulation simulation(walk(120));
   presets::Structure<double> pipeline;
-  pipeline.initialisation.min_points = 120;
-  pipeline.initialisation.min_parallax = radians(4.0);
+  pipeline.initialisation.options.min_points = 120;
+  pipeline.initialisation.options.triangulation.min_parallax = radians(4.0);
   const auto results = track_all(pipeline, simulation);
   REQUIRE(count(results, State::kInitialising) > 20);
   REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
@@ -94,7 +94,7 @@ TEST_CASE("The motion carries over a short loss, where it is believed") {
   Simulation simulation(walk(120));
   presets::Structure<double> pipeline;
   const double horizon = GENERATE(0.3, 0.0);
-  pipeline.motion.horizon = horizon;
+  pipeline.motion.options.horizon = horizon;
   track_first(pipeline, simulation, 80);
   for (std::size_t k = 80; k < 84; ++k) {
     Frame<double> frame = simulation.dark_frame(k);

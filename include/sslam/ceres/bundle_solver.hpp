@@ -13,6 +13,7 @@
 
 #include "sslam/ceres/bundle_blocks.hpp"
 #include "sslam/ceres/plane_costs.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/bundle/bundle_summary.hpp"
 
 namespace sslam {
@@ -23,7 +24,19 @@ struct CeresBundleOptions {
   int num_threads = 1;
   bool sparse = false;  // of the reduced system: worth it for hundreds of keyframes
   BundleLosses<double> losses;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_iterations", self.max_iterations, Unit::kCount, 1, 10000, "steps tried at most");
+    visit("function_tolerance", self.function_tolerance, Unit::kShare, 0, 1,
+          "of the cost: a step that wins less is the last");
+    visit("num_threads", self.num_threads, Unit::kCount, 1, 1024, "that solve");
+    visit("sparse", self.sparse, Unit::kCount, 0, 1,
+          "1: the reduced system is sparse, for hundreds of keyframes");
+    visit_within("losses.", self.losses, visit);
+  }
 };
+static_assert(Described<CeresBundleOptions>);
 
 class CeresBundleSolver {
  public:

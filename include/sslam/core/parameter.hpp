@@ -11,14 +11,21 @@
 //   };
 //
 // `Self` is the struct or its const; `visit` is called as visit(name, value, unit, least, most, meaning), the
-// range in the unit, both ends allowed. The command line, the files and the documentation are fed from here.
+// range in the unit, both ends allowed. Options within options follow with visit_within. The command line,
+// the files and the documentation are fed from here.
 #pragma once
 
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <type_traits>
+#include <utility>
 
 namespace sslam {
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();  // as an end of a range
 
 enum class Unit : std::uint8_t {
   kNumber,   // a ratio or a factor
@@ -66,5 +73,54 @@ template <class T>
 concept Described = requires(T& options) {
   T::parameters(options, detail::AnyVisit{});
 };
+
+// Puts a prefix before the names of what is visited.
+template <class Visit>
+class PrefixedVisit {
+ public:
+  PrefixedVisit(std::string prefix, Visit& visit) : prefix_(std::move(prefix)), visit_(visit) {}
+
+  template <class T>
+  void operator()(const char* name, T& value, Unit unit, double least, double most,
+                  const char* meaning) const {
+    visit_((prefix_ + name).c_str(), value, unit, least, most, meaning);
+  }
+
+  // The same visit, deeper.
+  [[nodiscard]] PrefixedVisit within(const char* prefix) const { return {prefix_ + prefix, visit_}; }
+
+ private:
+  std::string prefix_;
+  Visit& visit_;
+};
+
+namespace detail {
+
+template <class T>
+inline constexpr bool kIsPrefixed = false;
+template <class Visit>
+inline constexpr bool kIsPrefixed<PrefixedVisit<Visit>> = true;
+
+}  // namespace detail
+
+// The members of options that are part of others, "match." before their names.
+template <class Options, class Visit>
+void visit_within(const char* prefix, Options& options, Visit&& visit) {
+  if constexpr (detail::kIsPrefixed<std::remove_cvref_t<Visit>>)
+    std::remove_const_t<Options>::parameters(options, visit.within(prefix));
+  else
+    std::remove_const_t<Options>::parameters(options, PrefixedVisit(prefix, visit));
+}
+
+// The parameters of a stage: those that it lists itself, or those of its `options`. A stage that has neither
+// has no parameters.
+template <class Stage, class Visit>
+void visit_stage(const char* prefix, Stage& stage, Visit&& visit) {
+  if constexpr (Described<std::remove_const_t<Stage>>)
+    visit_within(prefix, stage, visit);
+  else if constexpr (requires { stage.options; })
+    if constexpr (Described<std::remove_cvref_t<decltype(stage.options)>>)
+      visit_within(prefix, stage.options, visit);
+}
 
 }  // namespace sslam

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/so3.hpp"
 
@@ -45,7 +46,37 @@ struct ManhattanOptions {
     options.normal_floor = std::max(normal_floor, plane_sigma);
     return options;
   }
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("widest_kernel", self.widest_kernel, Unit::kDegrees, 0.01, 45,
+          "first kernel width of the mean-shift");
+    visit("narrowest_kernel", self.narrowest_kernel, Unit::kDegrees, 0.01, 45, "last kernel width");
+    visit("kernel_per_scatter", self.kernel_per_scatter, Unit::kNumber, 0.01, 100,
+          "kernel width over the scatter of the normals");
+    visit("min_normal_share", self.min_normal_share, Unit::kShare, 0, 1,
+          "share of the normals that shows an axis");
+    visit("normal_correlation", self.normal_correlation, Unit::kShare, 0, 1,
+          "of the variance of a plane's normals, that they have in common");
+    visit("normal_floor", self.normal_floor, Unit::kDegrees, 0, 45,
+          "standard deviation that no plane's direction falls below");
+    visit("normal_votes", self.normal_votes, Unit::kNumber, 0, 1e+06,
+          "independent directions that all normals of a view count as");
+    visit("coarse_every", self.coarse_every, Unit::kCount, 1, 1000,
+          "one block of normals in so many is read while the kernel narrows");
+    visit("line_floor", self.line_floor, Unit::kDegrees, 0, 45,
+          "how well edges keep to their axis: added to the sigma of each segment");
+    visit("widest_line_gate", self.widest_line_gate, Unit::kDegrees, 0.01, 45,
+          "of the segments at first; it halves in each round");
+    visit("min_line_gain", self.min_line_gain, Unit::kNumber, 0, 1e+06,
+          "log-likelihood of the segments with an axis over that without it");
+    visit("max_deviation", self.max_deviation, Unit::kDegrees, 0, 180,
+          "standard deviation, by votes alone, up to which a rotation is observed");
+    visit("max_jump", self.max_jump, Unit::kDegrees, 0, 180,
+          "turn from the prediction, beyond which it is a flip");
+  }
 };
+static_assert(Described<ManhattanOptions<double>>);
 
 // The predicted rotation, and how far it may be off: the covariance of its left perturbation, camera frame,
 // rad^2. It fills the directions that no vote observes.

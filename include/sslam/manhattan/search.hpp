@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/manhattan/frame_candidates.hpp"
 #include "sslam/manhattan/rotation.hpp"
 
@@ -26,7 +27,30 @@ struct SearchOptions {
   S min_axis_gain = 8;       // of an axis over clutter in its place; two axes must have it
   S max_skew = 2;            // of a plane's direction off its axis, in its standard deviations
   S max_ambiguity = S(0.9);  // of the next best frame that differs, as a share of the best
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("rank_width", self.rank_width, Unit::kDegrees, 0.01, 45,
+          "kernel width of normals while candidates are compared");
+    visit("rank_line_floor", self.rank_line_floor, Unit::kDegrees, 0, 45,
+          "added to the sigma of the segments meanwhile");
+    visit("pairs", self.pairs, Unit::kCount, 0, 1e+06,
+          "random pairs of segments whose vanishing point is tried");
+    visit("peaks_apart", self.peaks_apart, Unit::kDegrees, 0, 90, "between two peaks of the normals");
+    visit("points_apart", self.points_apart, Unit::kDegrees, 0, 90, "between two vanishing points");
+    visit("distinct", self.distinct, Unit::kDegrees, 0, 45, "between two frames that differ");
+    visit("min_surprise", self.min_surprise, Unit::kNumber, 0, 1e+06,
+          "log-likelihood of the frame beyond what chance would find");
+    visit("min_axis_gain", self.min_axis_gain, Unit::kNumber, 0, 1e+06,
+          "log-likelihood of an axis over clutter in its place");
+    visit("max_skew", self.max_skew, Unit::kNumber, 0, 1e+06,
+          "of a plane's direction off its axis, standard deviations");
+    visit("max_ambiguity", self.max_ambiguity, Unit::kShare, 0, 1,
+          "of the next best frame as a share of the best");
+    // `rotation` serves every frame: who searches lists it under its own names.
+  }
 };
+static_assert(Described<SearchOptions<double>>);
 
 namespace detail {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/map/plane_ties.hpp"
 #include "sslam/solver/bundle/bundle_graph.hpp"
@@ -20,7 +21,20 @@ struct BundleWindowOptions {
   bool planes = true;         // tie points and lines to their planes
   bool manhattan = true;      // tie keyframe rotations and line directions to the Manhattan axes
   S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_free", self.max_free, Unit::kCount, 1, 1e+06, "keyframes that move");
+    visit("max_held", self.max_held, Unit::kCount, 0, 1e+06,
+          "keyframes around them that stay where they are");
+    visit("planes", self.planes, Unit::kCount, 0, 1, "1: points and lines are tied to their planes");
+    visit("manhattan", self.manhattan, Unit::kCount, 0, 1,
+          "1: rotations and lines are tied to the Manhattan axes");
+    visit("rotation_floor", self.rotation_floor, Unit::kDegrees, 0, 45,
+          "standard deviation that no Manhattan rotation falls below");
+  }
 };
+static_assert(Described<BundleWindowOptions<double>>);
 
 // The Manhattan rotation of a keyframe as a tie, no more certain than `floor` about any axis; none where its
 // covariance is of no use.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/residual/line_on_plane.hpp"
 #include "sslam/residual/line_reprojection.hpp"
@@ -25,7 +26,24 @@ struct BundleWriteBackOptions {
   S plane_gate = S(10.8);   // above which a landmark no longer lies on its plane: 1 degree, 99.9 %
   S max_outliers = S(0.3);  // share of the observations; more than that and the result itself is not believed
   S min_ray_sine = S(0.1);  // angle between a ray and the line it trims, below which it says nothing
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("point_gate", self.point_gate, Unit::kNumber, 0.01, kUnbounded,
+          "chi-square beyond which a point's observation goes");
+    visit("line_gate", self.line_gate, Unit::kNumber, 0.01, kUnbounded,
+          "chi-square beyond which a line's observation goes");
+    visit("axis_gate", self.axis_gate, Unit::kNumber, 0.01, kUnbounded,
+          "chi-square beyond which a line or a plane leaves its axis");
+    visit("plane_gate", self.plane_gate, Unit::kNumber, 0.01, kUnbounded,
+          "chi-square beyond which a landmark leaves its plane");
+    visit("max_outliers", self.max_outliers, Unit::kShare, 0, 1,
+          "of the observations; with more, the result is not believed");
+    visit("min_ray_sine", self.min_ray_sine, Unit::kShare, 0, 1,
+          "sine of the angle between a ray and the line that it trims");
+  }
 };
+static_assert(Described<BundleWriteBackOptions<double>>);
 
 template <Scalar S>
 class BundleWriteBack {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sslam/core/median.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/solver/bundle/pose_graph.hpp"
@@ -29,7 +30,17 @@ struct EdgeSigmas {
     out[6] = certainty / scale;
     return out;
   }
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("rotation", self.rotation, Unit::kDegrees, 1e-06, 180,
+          "of the rotation between two keyframes that share 50 landmarks");
+    visit("translation", self.translation, Unit::kNumber, 1e-06, 10,
+          "of the translation between them over the scene depth");
+    visit("scale", self.scale, Unit::kNumber, 1e-06, 10, "of the logarithm of the scale between them");
+  }
 };
+static_assert(Described<EdgeSigmas<double>>);
 
 template <Scalar S>
 struct EssentialGraphOptions {
@@ -38,7 +49,16 @@ struct EssentialGraphOptions {
   EdgeSigmas<S> sigmas;
   S loop_certainty =
       10;  // of the motion across a loop, over that of an edge: each keyframe has edges to many others
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_shared", self.min_shared, Unit::kCount, 1, 1e+06, "landmarks that make an edge");
+    visit("loop_certainty", self.loop_certainty, Unit::kNumber, 0.001, 1e+06,
+          "of the motion across a loop over that of an edge");
+    visit_within("sigma.", self.sigmas, visit);
+  }
 };
+static_assert(Described<EssentialGraphOptions<double>>);
 
 template <Scalar S>
 class EssentialGraph {

@@ -9,6 +9,7 @@
 #include "sslam/core/descriptor.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/line2.hpp"
+#include "sslam/image/normal_field.hpp"
 
 namespace sslam {
 
@@ -28,27 +29,6 @@ struct LineFeature {
   S sigma = 1;  // standard deviation of an endpoint across the segment, pixels
   std::uint8_t octave = 0;  // level of the image pyramid
   Descriptor descriptor;
-};
-
-// Unit normals on planar regions, camera frame, pointing at the camera; weight in [0, 1] is the confidence.
-// One array per component, so that a kernel can read a network's planes as they are.
-struct NormalField {
-  std::vector<float> x, y, z, weight;
-  // What the normals of one plane get wrong together: standard deviation of their mean's direction per
-  // component, radians. No number of normals averages it away.
-  float plane_sigma = 0;
-
-  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
-  void clear() noexcept {
-    for (auto* plane : {&x, &y, &z, &weight}) plane->clear();
-    plane_sigma = 0;
-  }
-  void push_back(float nx, float ny, float nz, float w) {
-    x.push_back(nx);
-    y.push_back(ny);
-    z.push_back(nz);
-    weight.push_back(w);
-  }
 };
 
 // Vectors keep their capacity from frame to frame, so a reused Frame stops allocating after the first few

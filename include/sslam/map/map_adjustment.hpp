@@ -4,6 +4,7 @@
 
 #include <concepts>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/bundle_write_back.hpp"
 #include "sslam/solver/bundle/bundle_solver.hpp"
 
@@ -24,6 +25,13 @@ class MapAdjustment {
   BundleWindowOptions<S> window_options;
   Solver solver;
   BundleWriteBack<S> write_back;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("window.", self.window_options, visit);
+    visit_stage("", self.solver, visit);
+    visit_stage("", self.write_back, visit);
+  }
 
   // The keyframe and its closest neighbours move, what surrounds them is held: a MapOptimiser.
   BundleSummary optimise(Map<S>& map, KeyframeId keyframe) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sslam/io/maps/map_file.hpp"
+#include "sslam/opencv/parameters.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam {
@@ -38,17 +39,26 @@ BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(sett
   engine_ = settings_.live ? preset_.make_live() : preset_.make();
   engine_->seed(settings_.seed);
   engine_->create_points(preset_.new_points);
-  for (const ParameterValue& parameter : settings_.parameters) {
-    try {
-      engine_->set(parameter);
-    } catch (const Error& error) {
-      throw SettingsError("parameters", error.what());
-    }
-  }
   reads_depth_ = settings_.normals.from_depth();
   frontend_ = std::make_unique<Frontend>();
   frontend_->camera = settings_.camera;
   frontend_->normals = std::move(settings_.normals);
+  set_parameters();
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::set_parameters() {
+  engine_->collect(parameters_);
+  collect_frontend_parameters(*frontend_, parameters_);
+  collect_normal_parameters(parameters_);
+  const auto demand = [](const ParameterAnswer& answer) {
+    if (!answer.ok()) throw SettingsError("parameters", answer.message);
+  };
+  for (const ParameterValue& wanted : settings_.parameters)
+    demand(parameters_.set(wanted.name, wanted.value));
+  demand(parameters_.check());
+  engine_->write(parameters_);
+  write_frontend_parameters(parameters_, *frontend_);
 }
 
 template <class Frontend>

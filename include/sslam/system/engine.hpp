@@ -5,10 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "sslam/core/parameter_table.hpp"
 #include "sslam/map/map.hpp"
-#include "sslam/system/parameter_value.hpp"
 #include "sslam/track/contract/result.hpp"
 #include "sslam/track/contract/stage_timer.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
@@ -40,10 +39,9 @@ class Engine {
   [[nodiscard]] virtual const std::array<float, kStageCount>& stage_ms() const = 0;
 
   virtual void seed(std::uint64_t seed) = 0;
-  virtual void create_points(bool on) = 0;  // false: no points but those that start the map
-  // Throws Error where the pipeline has no such parameter or cannot take the value.
-  virtual void set(const ParameterValue& parameter) = 0;
-  [[nodiscard]] virtual std::vector<ParameterInfo> parameters() = 0;
+  virtual void create_points(bool on) = 0;                // false: no points but those that start the map
+  virtual void collect(ParameterTable& table) const = 0;  // adds the pipeline's parameters
+  virtual void write(const ParameterTable& table) = 0;    // takes the values that were set
 };
 
 }  // namespace sslam

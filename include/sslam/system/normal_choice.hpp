@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "sslam/core/parameter_table.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"
 #include "sslam/opencv/normals/file_normals.hpp"
 #include "sslam/opencv/normals/no_normals.hpp"
@@ -22,6 +23,14 @@ struct NormalChoice {
 
   [[nodiscard]] bool from_depth() const noexcept { return std::holds_alternative<DepthNormals>(source); }
 
+  // Of the chosen source, which comes before their names: "depth.max_depth".
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    if (auto* depth = std::get_if<DepthNormals>(&self.source)) visit_stage("depth.", *depth, visit);
+    if (auto* files = std::get_if<FileNormals>(&self.source)) visit_stage("files.", *files, visit);
+    if (auto* network = std::get_if<OnnxNormals>(&self.source)) visit_stage("onnx.", *network, visit);
+  }
+
   // The normals of the last frame, to look at; empty where there is no source of them.
   [[nodiscard]] cv::Mat small_picture() const {
     constexpr int kColumns = 128;
@@ -36,6 +45,18 @@ struct NormalChoice {
     return {};
   }
 };
-static_assert(NormalSource<NormalChoice>);
+static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);
+
+// The parameters of every source, with their defaults.
+inline void collect_normal_parameters(ParameterTable& table) {
+  const DepthNormalsOptions depth;
+  const FileNormalsOptions files;
+  const OnnxNormalsOptions network;
+  table.collect([&](auto& visit) {
+    visit_within("normals.depth.", depth, visit);
+    visit_within("normals.files.", files, visit);
+    visit_within("normals.onnx.", network, visit);
+  });
+}
 
 }  // namespace sslam

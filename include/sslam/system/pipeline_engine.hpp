@@ -4,11 +4,10 @@
 
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "sslam/system/engine.hpp"
-#include "sslam/system/pipeline_parameters.hpp"
 #include "sslam/system/wall_timer.hpp"
+#include "sslam/track/parameters.hpp"
 
 namespace sslam {
 
@@ -59,8 +58,8 @@ class PipelineEngine final : public Engine {
     if constexpr (requires { pipeline_.mapping.creation.options.use_points; })
       pipeline_.mapping.creation.options.use_points = on;
   }
-  void set(const ParameterValue& parameter) override { set_parameter(pipeline_, parameter); }
-  [[nodiscard]] std::vector<ParameterInfo> parameters() override { return list_parameters(pipeline_); }
+  void collect(ParameterTable& table) const override { collect_parameters(pipeline_, table); }
+  void write(const ParameterTable& table) override { write_parameters(table, pipeline_); }
 
  private:
   Pipeline pipeline_;

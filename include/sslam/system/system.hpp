@@ -88,7 +88,7 @@ class BasicSystem {
   // Whether depth images are looked at.
   [[nodiscard]] bool reads_depth() const noexcept { return reads_depth_; }
   [[nodiscard]] const Preset& preset() const noexcept { return preset_; }
-  [[nodiscard]] std::vector<ParameterInfo> parameters() { return engine_->parameters(); }
+  [[nodiscard]] const ParameterTable& parameters() const noexcept { return parameters_; }
   [[nodiscard]] int world() const { return engine_->world(); }
   [[nodiscard]] MapsApart apart() const { return engine_->apart(); }
   [[nodiscard]] int keyframes_not_made() const { return engine_->keyframes_not_made(); }
@@ -96,6 +96,7 @@ class BasicSystem {
 
  private:
   void check(const Settings& settings) const;
+  void set_parameters();
   void tell(const FrameReport& report, const Extraction& extraction);
   void note_latest(const FrameReport& report);
 
@@ -103,6 +104,7 @@ class BasicSystem {
   Preset preset_;
   std::unique_ptr<Frontend> frontend_;
   std::unique_ptr<Engine> engine_;
+  ParameterTable parameters_;
   std::vector<Observer*> observers_;
   Extraction extraction_;  // of track(image, ...)
   std::int64_t frames_ = 0;

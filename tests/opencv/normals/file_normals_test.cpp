@@ -139,11 +139,11 @@ TEST_CASE("an encoding that is none changes nothing") {
 TEST_CASE("an encoding says how far the normals of a plane may be off") {
   FileNormalsOptions options;
   REQUIRE(parse_normal_encoding("r=+x g=+y b=+z", options));
-  CHECK(options.plane_sigma_deg == 0);
+  CHECK(options.plane_sigma == 0);
   REQUIRE(parse_normal_encoding("r=+x g=+y b=+z plane_sigma_deg=4.7", options));
-  CHECK(options.plane_sigma_deg == 4.7);
+  CHECK(options.plane_sigma == radians(4.7));
   for (const char* end :
        {"plane_sigma_deg=", "plane_sigma_deg=x", "plane_sigma_deg=-1", "plane_sigma_deg=4 5", "4.7"})
     CHECK(!parse_normal_encoding(std::string("r=+x g=+y b=+z ") + end, options));
-  CHECK(options.plane_sigma_deg == 4.7);
+  CHECK(options.plane_sigma == radians(4.7));
 }

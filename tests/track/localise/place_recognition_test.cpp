@@ -52,7 +52,7 @@ Frame<double> view_of(const Map<double>& map, KeyframeId keyframe, Random& rando
 std::vector<KeyframeId> ranked(const Map<double>& map, const Frame<double>& frame, int most) {
   PlaceRecognition<double> places;
   std::vector<KeyframeId> answer;
-  places.most = most;
+  places.options.most = most;
   places.rank(map, frame, answer);
   return answer;
 }

@@ -177,7 +177,7 @@ TEST_CASE("No place is looked for when none may be tried") {
   Ring ring;
   const auto before = state_of(ring.map);
   LoopClosing<double> loops;
-  loops.detection.places.most = 0;
+  loops.detection.places.options.most = 0;
   CHECK_FALSE(close(loops, ring.map).closed);
   CHECK(same_bits(state_of(ring.map), before));
 }

@@ -62,7 +62,7 @@ TEST_CASE("A keyframe that alone sees a part of the scene stays") {
 TEST_CASE("A share over 1 removes nothing") {
   Map<double> map = crowded_map(20);
   KeyframeCulling<double> culling;
-  culling.redundant_share = 1.01;
+  culling.options.redundant_share = 1.01;
   culling.cull(map, 19);
   REQUIRE(count_alive(map) == 20);
 }

@@ -45,7 +45,7 @@ TEST_CASE("Rays that meet a known plane give new points where landmarks are few"
   std::vector<std::uint8_t> old(map.points.size() * 5, 0);
   for (std::size_t i = 0; i < map.points.size(); ++i) old[i] = map.points[i].alive;
   PlanePoints<double> points;
-  points.few_landmarks = 100000;
+  points.options.few_landmarks = 100000;
   const int added = points.create(map, kNewest, kMedianDepth);
   CHECK(added > 50);
   CHECK(alive(map) == before + static_cast<std::size_t>(added));
@@ -67,12 +67,12 @@ TEST_CASE("Planes give no points where landmarks are many, nor far from what lie
   Map<double> map = before_wall(scene);
   PlanePoints<double> points;
   CHECK(points.create(map, kNewest, kMedianDepth) == 0);  // switched off
-  points.few_landmarks = 10;
+  points.options.few_landmarks = 10;
   CHECK(points.create(map, kNewest, kMedianDepth) == 0);  // it sees more
-  points.few_landmarks = 100000;
+  points.options.few_landmarks = 100000;
   for (auto& p : map.points)
     if (p.alive && p.plane != kNone && (p.position.head<2>() - Vec2<double>(0, 0)).norm() > 0.3)
       p.plane = kNone;  // what is left of the walls is a patch
-  points.reach = 0;
+  points.options.reach = 0;
   CHECK(points.create(map, kNewest, kMedianDepth) < 10);
 }

@@ -22,7 +22,7 @@ template <int D>
 PoseEstimate<double> judged(int count, bool turned) {
   const RotationPrior<double> prior{{}, Mat3<double>::Identity()};
   PoseAcceptance<double> acceptance = LocalMapRefinement<double>().accepts(turned ? &prior : nullptr);
-  if (D == 3) acceptance = DecoupledTranslation<double>().acceptance;
+  if (D == 3) acceptance = DecoupledTranslation<double>().options.acceptance;
   Correspondences<double> m = matches(count);
   return judge<double, D>(m, {}, Mat<double, D, D>::Identity() * 1e6, acceptance);
 }

@@ -130,7 +130,7 @@ TEST_CASE("Two maps become one while mapping comes late") {
 TEST_CASE("Without loop closing two maps stay two") {
   Simulation simulation(walk_and_return());
   presets::Structure<double> pipeline;
-  pipeline.loops.detection.places.most = 0;
+  pipeline.loops.detection.places.options.most = 0;
   const auto results = track_all(pipeline, simulation);
   REQUIRE(std::none_of(results.begin(), results.end(), [](const auto& r) { return r.maps_joined; }));
   pipeline.finish();

@@ -11,10 +11,12 @@
 #include <opencv2/line_descriptor.hpp>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
+#include "sslam/image/segment_detector.hpp"
+#include "sslam/image/segment_merger.hpp"
+#include "sslam/image/segment_refiner.hpp"
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/lines/segment_detector.hpp"
-#include "sslam/opencv/lines/segment_merger.hpp"
-#include "sslam/opencv/lines/segment_refiner.hpp"
+#include "sslam/opencv/view_of.hpp"
 
 namespace sslam {
 
@@ -26,7 +28,22 @@ struct LineOptions {
   int max_lines = 250;             // longest kept
   SegmentMergeOptions merge;
   SegmentRefineOptions refine;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("octaves", self.octaves, Unit::kCount, 1, 2,
+          "1: half resolution; 2: 0.8 of the full resolution as well");
+    visit("min_length_ratio", self.min_length_ratio, Unit::kShare, 0, 1,
+          "length of a segment over the longer side of the image");
+    visit("border", self.border, Unit::kPixels, 0, kUnbounded,
+          "segments that run along the border within this are left out");
+    visit("max_lines", self.max_lines, Unit::kCount, 0, 1e+06, "longest kept");
+    visit_within("detector.", self.detector, visit);
+    visit_within("merge.", self.merge, visit);
+    visit_within("refine.", self.refine, visit);
+  }
 };
+static_assert(Described<LineOptions>);
 
 class LineExtractor {
  public:
@@ -69,9 +86,10 @@ class LineExtractor {
     SegmentRefineOptions refine_options = options.refine;
     refine_options.reach = reach;
     refined_.clear();
+    const auto view = view_of<std::uint8_t>(grey);
     for (const auto& segment : segments_) {
       if (segment.length() < 0.8 * min_length) continue;
-      const RefinedSegment refined = SegmentRefiner::refine(grey, segment, refine_options);
+      const RefinedSegment refined = SegmentRefiner::refine(view, segment, refine_options);
       if (refined.found && refined.segment.length() >= min_length) refined_.push_back(refined);
     }
     std::stable_sort(refined_.begin(), refined_.end(),
@@ -84,7 +102,7 @@ class LineExtractor {
   // Adds the segments of the image, which is a smaller one of the size `full`, in pixels of that.
   void detect(const cv::Mat& image, cv::Size full) {
     found_.clear();
-    detector_.detect(image, found_);
+    detector_.detect(view_of<std::uint8_t>(image), found_);
     const Vec2<double> scale(static_cast<double>(full.width) / image.cols,
                              static_cast<double>(full.height) / image.rows);
     const auto to_full = [&](const Vec2<double>& p) -> Vec2<double> {

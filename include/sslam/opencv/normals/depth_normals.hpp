@@ -10,23 +10,40 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
+#include "sslam/image/inverse_depth_blocks.hpp"
+#include "sslam/image/normal_grid.hpp"
 #include "sslam/opencv/camera/lens_table.hpp"
-#include "sslam/opencv/normals/inverse_depth_blocks.hpp"
-#include "sslam/opencv/normals/normal_grid.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
+#include "sslam/opencv/view_of.hpp"
 
 namespace sslam {
 
 struct DepthNormalsOptions {
-  double min_depth = 0.3;         // metres
-  double max_depth = 8;           // metres
-  double noise = 0.0025;          // of the inverse depth of a pixel, 1 / metres
-  double block_noise = 0.0012;    // of the mean over a block: what is common to neighbouring pixels
-  double target_error_deg = 1.0;  // of a normal: the window grows until it should be reached
-  int max_radius = 3;             // of a window, blocks
-  double min_fill = 0.5;          // share of the window that must lie on the plane
+  double min_depth = 0.3;              // metres
+  double max_depth = 8;                // metres
+  double noise = 0.0025;               // of the inverse depth of a pixel, 1 / metres
+  double block_noise = 0.0012;         // of the mean over a block: what is common to neighbouring pixels
+  double target_error = radians(1.0);  // of a normal: the window grows until it should be reached
+  int max_radius = 3;                  // of a window, blocks
+  double min_fill = 0.5;               // share of the window that must lie on the plane
   PlanarMaskOptions mask;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_depth", self.min_depth, Unit::kNumber, 0.001, 1e+06, "metres");
+    visit("max_depth", self.max_depth, Unit::kNumber, 0.001, 1e+06, "metres");
+    visit("noise", self.noise, Unit::kNumber, 1e-09, 10, "of the inverse depth of a pixel, 1 / metres");
+    visit("block_noise", self.block_noise, Unit::kNumber, 1e-09, 10,
+          "of the mean over a block of pixels, 1 / metres");
+    visit("target_error", self.target_error, Unit::kDegrees, 0.01, 45,
+          "of a normal: the window grows until it should be reached");
+    visit("max_radius", self.max_radius, Unit::kCount, 1, 100, "of a window, in blocks");
+    visit("min_fill", self.min_fill, Unit::kShare, 0, 1, "of the window that must lie on the plane");
+    visit_within("mask.", self.mask, visit);
+  }
 };
+static_assert(Described<DepthNormalsOptions>);
 
 class DepthNormals {
  public:
@@ -42,7 +59,10 @@ class DepthNormals {
     if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) return NormalStatus::kWrongType;
     const double scale = static_cast<double>(depth.cols) / camera.width;
     if (std::abs(scale * camera.height - depth.rows) > 1) return NormalStatus::kWrongSize;
-    blocks_.build(depth, input.depth_factor, options.min_depth, options.max_depth, 3 * options.noise);
+    if (depth.depth() == CV_16U)
+      build_blocks(view_of<std::uint16_t>(depth), input.depth_factor);
+    else
+      build_blocks(view_of<float>(depth), 1);
     lens_.prepare(camera, blocks_.columns(), blocks_.rows(), InverseDepthBlocks::kBlock, scale);
     focal_ = camera.pinhole.fx * scale;
     grid_.reset(blocks_.columns(), blocks_.rows());
@@ -53,6 +73,11 @@ class DepthNormals {
   }
 
  private:
+  template <class Pixel>
+  void build_blocks(ImageView<Pixel> depth, double factor) {
+    blocks_.build(depth, factor, options.min_depth, options.max_depth, 3 * options.noise);
+  }
+
   void fit(int r, int c) {
     const DepthBlock& centre = blocks_.at(r, c);
     if (!centre.planar) return;
@@ -74,7 +99,7 @@ class DepthNormals {
   // Blocks on either side of the centre: an error of block_noise in each block's inverse depth turns the
   // normal of a window of w x w blocks by about f z noise sqrt(12) / (w^2 block).
   [[nodiscard]] int window_radius(float z) const noexcept {
-    const double target = radians(options.target_error_deg);
+    const double target = options.target_error;
     const double width2 =
         focal_ * z * options.block_noise * std::sqrt(12.0) / (target * InverseDepthBlocks::kBlock);
     return std::clamp(static_cast<int>(std::ceil((std::sqrt(width2) - 1) / 2)), 1, options.max_radius);
@@ -92,7 +117,7 @@ class DepthNormals {
     const double width = 2 * radius + 1;
     const double error = focal_ * options.block_noise * std::sqrt(12.0) /
                          (plane.value * width * width * InverseDepthBlocks::kBlock);
-    const double ratio = error / radians(options.target_error_deg);
+    const double ratio = error / options.target_error;
     const double filled = static_cast<double>(window.blocks) / window.possible;
     grid_.weight[i] = static_cast<float>(std::min(1.0, 2 * filled / (1 + ratio * ratio)));
   }

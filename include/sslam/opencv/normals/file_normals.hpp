@@ -11,7 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "sslam/opencv/normals/normal_grid.hpp"
+#include "sslam/core/parameter.hpp"
+#include "sslam/image/normal_grid.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
 
 namespace sslam {
@@ -21,11 +22,22 @@ struct FileNormalsOptions {
   std::string extension = ".png";          // of FOLDER/NAME.EXTENSION, NAME as in ImageInput
   std::array<int, 3> channel{0, 1, 2};     // of the camera's x, y and z axis, in the order blue, green, red
   std::array<double, 3> sign{-1, -1, -1};  // of x, y and z against the stored value
-  double plane_sigma_deg = 5;              // what the normals of one plane get wrong together (NormalField)
+  double plane_sigma = radians(5.0);       // what the normals of one plane get wrong together (NormalField)
   int step = 4;                            // between two normals that are used, pixels of the file
   double max_norm_error = 0.15;            // of a stored vector from unit length: beyond, it is no normal
   PlanarMaskOptions mask;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("plane_sigma", self.plane_sigma, Unit::kDegrees, 0, 89,
+          "what the normals of one plane get wrong together");
+    visit("step", self.step, Unit::kPixels, 1, 10000, "between two normals that are used, of the file");
+    visit("max_norm_error", self.max_norm_error, Unit::kNumber, 0, 10,
+          "of a stored vector from unit length: beyond, it is no normal");
+    visit_within("mask.", self.mask, visit);
+  }
 };
+static_assert(Described<FileNormalsOptions>);
 
 // Which channel holds which axis: three cells such as "r=+x g=+y b=+z" in any order, and after them, where
 // the normals are not exact, "plane_sigma_deg=4.7". False, with the options as they were, when the text is
@@ -34,7 +46,7 @@ struct FileNormalsOptions {
   constexpr std::string_view kChannels = "bgr", kAxes = "xyz";
   FileNormalsOptions parsed = options;
   std::array<bool, 3> channel_seen{}, axis_seen{};
-  parsed.plane_sigma_deg = 0;
+  parsed.plane_sigma = 0;
   std::istringstream cells(text);
   std::string cell;
   int count = 0;
@@ -53,8 +65,9 @@ struct FileNormalsOptions {
     std::string more;
     if (!cell.starts_with(kSigma) || cells >> more) return false;
     std::istringstream number(cell.substr(kSigma.size()));
-    if (!(number >> parsed.plane_sigma_deg) || !number.eof()) return false;
-    if (!(parsed.plane_sigma_deg >= 0 && parsed.plane_sigma_deg < 90)) return false;
+    double degrees = 0;
+    if (!(number >> degrees) || !number.eof() || !(degrees >= 0 && degrees < 90)) return false;
+    parsed.plane_sigma = radians(degrees);
   }
   options = parsed;
   return true;
@@ -106,7 +119,7 @@ class FileNormals {
     }
     if (away > facing) return NormalStatus::kFacesAway;
     keep_planar(grid_, options.mask, field);
-    field.plane_sigma = static_cast<float>(radians(options.plane_sigma_deg));
+    field.plane_sigma = static_cast<float>(options.plane_sigma);
     return NormalStatus::kOk;
   }
 

@@ -8,9 +8,10 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/camera.hpp"
+#include "sslam/image/normal_grid.hpp"
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/normals/normal_grid.hpp"
 
 namespace sslam {
 
@@ -29,11 +30,25 @@ struct DenseNormals {
 struct NormalEvidenceOptions {
   double min_planar = 0.5;         // probability from which on a pixel counts as planar
   double min_planar_share = 0.03;  // of the grid: below, the frame has no Manhattan evidence
-  double min_agreement = 0.3;  // of neighbouring planar normals, share within agree_deg: below, none either
-  double agree_deg = 15;
+  double min_agreement = 0.3;  // of neighbouring planar normals, share within agree_angle: below, none either
+  double agree_angle = radians(15.0);
   int max_columns = 64;    // of the grid of normals that are used: finer output is subsampled
   PlanarMaskOptions mask;  // for models without a mask: neighbours must agree
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_planar", self.min_planar, Unit::kShare, 0, 1,
+          "probability from which on a pixel counts as planar");
+    visit("min_planar_share", self.min_planar_share, Unit::kShare, 0, 1,
+          "of the grid: below, the frame has no Manhattan evidence");
+    visit("min_agreement", self.min_agreement, Unit::kShare, 0, 1,
+          "of neighbouring planar normals: below, none either");
+    visit("agree_angle", self.agree_angle, Unit::kDegrees, 0, 180, "up to which two neighbours agree");
+    visit("max_columns", self.max_columns, Unit::kCount, 1, 1e+06, "of the grid of normals that are used");
+    visit_within("mask.", self.mask, visit);
+  }
 };
+static_assert(Described<NormalEvidenceOptions>);
 
 struct NormalEvidence {
   bool enough = false;      // false: "no Manhattan evidence", the field is left empty
@@ -64,7 +79,7 @@ struct NormalEvidence {
 namespace normal_evidence_detail {
 
 inline NormalEvidence judge(const NormalGrid& grid, const NormalEvidenceOptions& options) {
-  const auto min_cosine = static_cast<float>(std::cos(radians(options.agree_deg)));
+  const auto min_cosine = static_cast<float>(std::cos(options.agree_angle));
   std::size_t planar = 0, pairs = 0, agreeing = 0;
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.columns; ++c) {

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"
 #include "sslam/opencv/normals/normal_evidence.hpp"
 #include "sslam/opencv/normals/normal_manifest.hpp"
@@ -24,7 +25,20 @@ struct OnnxNormalsOptions {
   double max_bad_share = 0.05;    // of the output that is of no use: beyond, the frame is refused
   NormalEvidenceOptions evidence;
   DepthNormalsOptions depth;  // for models whose output is depth
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_norm_error", self.max_norm_error, Unit::kNumber, 0, 10,
+          "of an output vector from unit length: beyond, it is no normal");
+    visit("max_range_error", self.max_range_error, Unit::kNumber, 0, 10,
+          "of a mask or a confidence from 0 to 1: beyond, it is neither");
+    visit("max_bad_share", self.max_bad_share, Unit::kShare, 0, 1,
+          "of the output that is of no use: beyond, the frame is refused");
+    visit_within("evidence.", self.evidence, visit);
+    visit_within("depth.", self.depth, visit);
+  }
 };
+static_assert(Described<OnnxNormalsOptions>);
 
 // Of the last frame.
 struct OnnxNormalsReport {

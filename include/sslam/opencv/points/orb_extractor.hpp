@@ -12,12 +12,14 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
+#include "sslam/image/corner_refiner.hpp"
+#include "sslam/image/corner_spreader.hpp"
+#include "sslam/image/image_noise.hpp"
+#include "sslam/image/rotated_brief.hpp"
 #include "sslam/map/frame.hpp"
-#include "sslam/opencv/points/corner_refiner.hpp"
-#include "sslam/opencv/points/corner_spreader.hpp"
-#include "sslam/opencv/points/image_noise.hpp"
 #include "sslam/opencv/points/image_pyramid.hpp"
-#include "sslam/opencv/points/rotated_brief.hpp"
+#include "sslam/opencv/view_of.hpp"
 
 namespace sslam {
 
@@ -32,7 +34,29 @@ struct OrbOptions {
   double candidates = 2;    // FAST corners that are localised, for each point wanted
   int min_distance = 3;     // between two points of a level, pixels of the level
   double sigma = 0.5;       // of a coordinate at level 0, pixels; grows with the level's scale
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("points", self.points, Unit::kCount, 0, 1e+06, "at most, over all levels");
+    visit("levels", self.levels, Unit::kCount, 1, 32, "of the pyramid");
+    visit("ratio", self.ratio, Unit::kNumber, 1.01, 4, "size of a level over the size of the next");
+    visit("cell", self.cell, Unit::kPixels, 8, 10000, "side of a grid cell, of the level");
+    visit("contrast.first", self.contrast[0], Unit::kNumber, 1, 255,
+          "of FAST, grey levels: a cell uses the first that finds enough");
+    visit("contrast.second", self.contrast[1], Unit::kNumber, 1, 255, "where the first finds too few");
+    visit("contrast.last", self.contrast[2], Unit::kNumber, 1, 255, "where the second finds too few");
+    visit("noise_factor", self.noise_factor, Unit::kNumber, 0, 1000,
+          "contrast never falls below so many sigma of the image's noise");
+    visit("enough", self.enough, Unit::kCount, 0, 1e+06, "corners in a cell");
+    visit("candidates", self.candidates, Unit::kNumber, 1, 100,
+          "corners that are localised, for each point wanted");
+    visit("min_distance", self.min_distance, Unit::kPixels, 0, 1000,
+          "between two points of a level, of the level");
+    visit("sigma", self.sigma, Unit::kPixels, 0.001, 100,
+          "of a coordinate at full resolution, standard deviation");
+  }
 };
+static_assert(Described<OrbOptions>);
 
 class OrbExtractor {
  public:
@@ -64,8 +88,9 @@ class OrbExtractor {
   // Fills corners_ with at most `budget` corners of a level.
   void detect(const cv::Mat& image, int budget) {
     corners_.clear();
+    const auto view = view_of<std::uint8_t>(image);
     const float lowest =
-        std::max(options.contrast.back(), static_cast<float>(options.noise_factor * image_noise(image)));
+        std::max(options.contrast.back(), static_cast<float>(options.noise_factor * image_noise(view)));
     const int rim =
         kBorder - 3 + 1;  // FAST leaves 3 pixels free by itself, and the refinement may move by a pixel
     const cv::Rect inside(rim, rim, image.cols - 2 * rim, image.rows - 2 * rim);
@@ -76,24 +101,25 @@ class OrbExtractor {
     std::array<float, 3> contrast = options.contrast;
     for (float& c : contrast) c = std::max(c, lowest);
     const int candidates = static_cast<int>(std::lround(options.candidates * budget));
-    spreader_.spread(corners_, image.size(), {options.cell, candidates, 0, contrast, options.enough});
-    std::erase_if(corners_, [&](Corner& corner) { return !CornerRefiner::refine(image, corner); });
-    spreader_.spread(corners_, image.size(), {options.cell, budget, options.min_distance, {}, 0});
+    spreader_.spread(corners_, view.size(), {options.cell, candidates, 0, contrast, options.enough});
+    std::erase_if(corners_, [&](Corner& corner) { return !CornerRefiner::refine(view, corner); });
+    spreader_.spread(corners_, view.size(), {options.cell, budget, options.min_distance, {}, 0});
   }
 
   void describe(std::size_t level, std::vector<PointFeature<double>>& points) {
     if (corners_.empty()) return;
     const cv::Mat& image = pyramid_.image(level);
     cv::GaussianBlur(image, smooth_, {7, 7}, 2, 2, cv::BORDER_REFLECT_101);
+    const auto view = view_of<std::uint8_t>(image), smooth = view_of<std::uint8_t>(smooth_);
     for (const Corner& corner : corners_) {
       const int x = static_cast<int>(std::lround(corner.x)), y = static_cast<int>(std::lround(corner.y));
       PointFeature<double> point;
       point.pixel = pyramid_.to_full({corner.x, corner.y}, level);
       point.sigma = options.sigma * pyramid_.scale(level);
-      const float angle = brief_.orientation(image, x, y);
+      const float angle = brief_.orientation(view, x, y);
       point.angle = angle;
       point.octave = static_cast<std::uint8_t>(level);
-      point.descriptor = brief_.describe(smooth_, x, y, angle);
+      point.descriptor = brief_.describe(smooth, x, y, angle);
       points.push_back(point);
     }
   }

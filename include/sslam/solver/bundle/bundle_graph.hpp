@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/line2.hpp"
 #include "sslam/geometry/line3.hpp"
@@ -121,6 +122,26 @@ struct BundleLosses {
   S plane = 2;                     // a landmark that does not lie on its plane
   S flatness = S(0.01);            // of real walls and of what hangs on them, over the scene depth
   S scale_sigma = S(1e-3);         // of the held distance, as a part of it; it competes with nothing
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("point", self.point, Unit::kNumber, 0.01, 1000,
+          "standard deviations at which a point begins to let go");
+    visit("line", self.line, Unit::kNumber, 0.01, 1000,
+          "standard deviations at which a line begins to let go");
+    visit("rotation", self.rotation, Unit::kNumber, 0.01, 1000,
+          "standard deviations at which a Manhattan rotation begins to let go");
+    visit("axis", self.axis, Unit::kNumber, 0.01, 1000,
+          "standard deviations at which a line off its axis begins to let go");
+    visit("axis_sigma", self.axis_sigma, Unit::kDegrees, 0.001, 45,
+          "how far walls and edges stand from the axes, standard deviation");
+    visit("plane", self.plane, Unit::kNumber, 0.01, 1000,
+          "standard deviations at which a landmark off its plane begins to let go");
+    visit("scale_sigma", self.scale_sigma, Unit::kNumber, 1e-09, 1,
+          "of the distance that holds the scale, over that distance");
+    // flatness is listed with the planes.
+  }
 };
+static_assert(Described<BundleLosses<double>>);
 
 }  // namespace sslam

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/bundle/bundle_equations.hpp"
 #include "sslam/solver/bundle/bundle_summary.hpp"
 #include "sslam/solver/bundle/bundle_terms.hpp"
@@ -16,7 +17,14 @@ namespace sslam {
 template <Scalar S>
 struct BundleOptions : DescentOptions<S> {
   BundleLosses<S> losses;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    DescentOptions<S>::parameters(self, visit);
+    visit_within("losses.", self.losses, visit);
+  }
 };
+static_assert(Described<BundleOptions<double>>);
 
 // Keeps its buffers from solve to solve. The same graph gives the same bits.
 template <Scalar S>

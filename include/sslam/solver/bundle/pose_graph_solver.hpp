@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/residual/loss.hpp"
 #include "sslam/residual/similarity_edge.hpp"
 #include "sslam/solver/bundle/bundle_summary.hpp"
@@ -23,7 +24,15 @@ struct PoseGraphOptions : DescentOptions<S> {
   S rotation_width = 2;  // standard deviations at which a rotation tie begins to let go (Cauchy)
 
   PoseGraphOptions() { this->max_iterations = 20; }
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    DescentOptions<S>::parameters(self, visit);
+    visit("rotation_width", self.rotation_width, Unit::kNumber, 0.01, 100,
+          "standard deviations at which a rotation tie begins to let go");
+  }
 };
+static_assert(Described<PoseGraphOptions<double>>);
 
 // The same graph gives the same bits.
 template <Scalar S>

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <limits>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/types.hpp"
 
@@ -24,7 +25,17 @@ struct DescentOptions {
   int max_iterations = 8;
   S initial_damping = S(1e-4);  // relative to the diagonal of the normal equations
   S min_decrease = S(1e-4);     // relative decrease of the cost that ends the search
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_iterations", self.max_iterations, Unit::kCount, 1, 10000, "steps tried at most");
+    visit("initial_damping", self.initial_damping, Unit::kNumber, 0, 1e+06,
+          "relative to the diagonal of the normal equations");
+    visit("min_decrease", self.min_decrease, Unit::kShare, 0, 1,
+          "of the cost: a step that wins less is the last");
+  }
 };
+static_assert(Described<DescentOptions<double>>);
 
 // From a linearised problem of the given cost down; a step that does not lower the cost is refused. kOk:
 // stands still; kNotConverged: ran out of iterations; kDegenerate: no damping lets the equations be factored.

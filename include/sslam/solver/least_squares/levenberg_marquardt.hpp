@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/manifold.hpp"
 
@@ -48,7 +49,19 @@ struct LmOptions {
   double min_step = 1e-7;         // tangent norm below which the state stands still
   double min_decrease =
       1e-6;  // share of the cost: a step that wins less, or promises a tenth of it, is the last
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_iterations", self.max_iterations, Unit::kCount, 1, 10000, "steps tried at most");
+    visit("initial_damping", self.initial_damping, Unit::kNumber, 0, 1e+06,
+          "relative to the diagonal of the normal equations");
+    visit("min_step", self.min_step, Unit::kNumber, 0, 1,
+          "length of a step below which the state stands still");
+    visit("min_decrease", self.min_decrease, Unit::kShare, 0, 1,
+          "of the cost: a step that wins less is the last");
+  }
 };
+static_assert(Described<LmOptions>);
 
 template <Scalar S, int D>
 struct LmSummary {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/pose/pose_problem.hpp"
 
 namespace sslam {
@@ -16,7 +17,20 @@ struct PoseRefinementOptions {
   S prior_huber = S(2);      // the same for the rotation prior, so that a wrong one lets go
   int min_observations = 3;  // points plus lines
   LmOptions solver;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("rounds", self.rounds, Unit::kCount, 1, 100, "of solving and sorting out mismatches");
+    visit("huber", self.huber, Unit::kNumber, 0.01, 100,
+          "standard deviations beyond which an error pulls less");
+    visit("gate", self.gate, Unit::kNumber, 0.01, 1000, "chi-square beyond which a match is an outlier");
+    visit("prior_huber", self.prior_huber, Unit::kNumber, 0.01, 100,
+          "standard deviations beyond which the rotation prior pulls less");
+    visit("min_observations", self.min_observations, Unit::kCount, 3, 1000, "points plus lines");
+    visit_within("solver.", self.solver, visit);
+  }
 };
+static_assert(Described<PoseRefinementOptions<double>>);
 
 template <Scalar S, int D>
 struct PoseSummary {

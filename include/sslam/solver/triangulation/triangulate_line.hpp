@@ -11,6 +11,7 @@
 #include <limits>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
 #include "sslam/solver/triangulation/line_problem.hpp"
@@ -26,7 +27,22 @@ struct LineTriangulationOptions {
   S min_depth = S(1e-4);          // along z of the seen ends in each view, units of the map
   S max_stretch = 30;             // length over distance from the nearest camera: more is kDegenerate
   LmOptions solver;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    // min_parallax is listed by the stage that triangulates, under a name of its own.
+    visit("max_relative_sigma", self.max_relative_sigma, Unit::kNumber, 0, 10,
+          "uncertainty of an end over its distance");
+    visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
+          "distance of a seen end from the projected line, standard deviations");
+    visit("min_depth", self.min_depth, Unit::kNumber, 0, 1e+06,
+          "of the seen ends in every view, units of the map");
+    visit("max_stretch", self.max_stretch, Unit::kNumber, 0, 1e+06,
+          "length over the distance from the nearest camera");
+    visit_within("solver.", self.solver, visit);
+  }
 };
+static_assert(Described<LineTriangulationOptions<double>>);
 
 template <Scalar S>
 struct LineTriangulation {

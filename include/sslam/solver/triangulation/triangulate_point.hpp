@@ -9,6 +9,7 @@
 #include <cmath>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/se3.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
@@ -29,7 +30,17 @@ struct PointTriangulationOptions {
   S min_depth = S(1e-4);           // along z in every view, units of the map
   S max_error = 3;  // reprojection error of every view, standard deviations (98.9 % in two dimensions)
   int max_iterations = 8;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    // min_parallax is listed by the stage that triangulates, under a name of its own.
+    visit("min_depth", self.min_depth, Unit::kNumber, 0, 1e+06, "in every view, units of the map");
+    visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
+          "reprojection error in every view, standard deviations");
+    visit("max_iterations", self.max_iterations, Unit::kCount, 1, 1000, "of the refinement");
+  }
 };
+static_assert(Described<PointTriangulationOptions<double>>);
 
 template <Scalar S>
 struct PointTriangulation {

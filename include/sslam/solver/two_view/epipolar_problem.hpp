@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/so3.hpp"
 #include "sslam/geometry/sphere.hpp"
 #include "sslam/residual/loss.hpp"
@@ -44,7 +45,27 @@ struct RelativePoseOptions {
   Mat3<S> prior_information =
       Mat3<S>::Zero();  // its inverse covariance (left perturbation, rad^-2); zero: none
   LmOptions solver;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
+          "largest epipolar error of an inlier, standard deviations");
+    visit("start_sigma", self.start_sigma, Unit::kDegrees, 0, 180,
+          "how far from the truth the rotation may start");
+    visit("max_nearness", self.max_nearness, Unit::kNumber, 1, kUnbounded,
+          "an inlier so many times nearer than the median of the moved is a mismatch");
+    visit("min_parallax", self.min_parallax, Unit::kNumber, 0, 100,
+          "flow of a match that has moved, standard deviations");
+    visit("min_moved_share", self.min_moved_share, Unit::kShare, 0, 1,
+          "of the inliers; with fewer, nothing tells the translation");
+    visit("max_direction_sigma", self.max_direction_sigma, Unit::kDegrees, 0, 180,
+          "standard deviation of the direction of the translation");
+    visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 5, 1e+06, "matches that agree with the pose");
+    visit_within("solver.", self.solver, visit);
+  }
 };
+static_assert(Described<RelativePoseOptions<double>>);
 
 // Cost of a relative pose over the matches that a gate at a fixed pose lets through: which matches count does
 // not change within one minimisation, and no list of them is needed.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/rotation_from_bearings.hpp"
 #include "sslam/solver/two_view/stratified_sample.hpp"
@@ -22,7 +23,18 @@ struct FindRelativePoseOptions {
   S confidence = S(0.999);  // that one of the sets is free of mismatches
   S min_cost_gap =
       30;  // between the two answers of a nearly flat scene: three matches more or less, variances
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e+06, "sets of five matches tried at most");
+    visit("confidence", self.confidence, Unit::kShare, 0, 1, "that one of them is free of mismatches");
+    visit("min_cost_gap", self.min_cost_gap, Unit::kNumber, 0, 1e+06,
+          "between the two answers of a nearly flat scene, variances");
+    visit_within("rotation.", self.rotation, visit);
+    visit_within("refinement.", self.refinement, visit);
+  }
 };
+static_assert(Described<FindRelativePoseOptions<double>>);
 
 // Search over sets of five matches (iterative minimal solver: Rosten, Reitmayr and Drummond, ICRA 2010).
 template <Scalar S>

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
 #include "sslam/solver/two_view/bearing_pair.hpp"
@@ -25,7 +26,20 @@ struct RotationFromBearingsOptions {
   int min_inliers = 10;
   int max_samples = 100;    // pairs of matches tried at most
   S confidence = S(0.999);  // that one of the pairs is free of mismatches
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
+          "largest error of an inlier, standard deviations");
+    visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
+          "standard deviation of the rotation about any axis");
+    visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 2, 1e+06, "matches that agree with the rotation");
+    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e+06, "pairs of matches tried at most");
+    visit("confidence", self.confidence, Unit::kShare, 0, 1, "that one of them is free of mismatches");
+  }
 };
+static_assert(Described<RotationFromBearingsOptions<double>>);
 
 template <Scalar S>
 struct RotationFromBearings {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/so3.hpp"
 #include "sslam/geometry/sphere.hpp"
@@ -28,7 +29,28 @@ struct TranslationOptions {
   int min_inliers = 10;
   int max_samples = 200;    // pairs of matches tried at most
   S confidence = S(0.999);  // that one of the pairs is free of mismatches
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
+          "largest distance of an inlier from its epipolar line, standard deviations");
+    visit("max_nearness", self.max_nearness, Unit::kNumber, 1, kUnbounded,
+          "an inlier so many times nearer than the median of the moved is a mismatch");
+    visit("min_parallax", self.min_parallax, Unit::kNumber, 0, 100,
+          "flow of a match that has moved, standard deviations");
+    visit("min_moved_share", self.min_moved_share, Unit::kShare, 0, 1,
+          "of the inliers; with fewer it is a pure rotation");
+    visit("min_rival_error", self.min_rival_error, Unit::kNumber, 0, 100,
+          "mean squared error of the second best direction, variances");
+    visit("min_front_share", self.min_front_share, Unit::kShare, 0, 1,
+          "of the moved matches that lie in front");
+    visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 2, 1e+06, "matches that agree with the translation");
+    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e+06, "pairs of matches tried at most");
+    visit("confidence", self.confidence, Unit::kShare, 0, 1, "that one of them is free of mismatches");
+  }
 };
+static_assert(Described<TranslationOptions<double>>);
 
 template <Scalar S>
 struct TranslationEstimate {

@@ -3,26 +3,42 @@
 // descriptors (Li et al. 2020, section V-C).
 #pragma once
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/track/localise/translation.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class FeatureFallback {
- public:
+struct FallbackOptions {
   MatchOptions<S> match;
   PoseAcceptance<S> acceptance;
   PoseRefinementOptions<S> solver;
   S widening = 2;  // of the search windows when the first try fails
   PointMatchOptions<S> descriptor_match{.max_distance = 50, .max_ratio = S(0.75)};
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.match, visit);
+    visit_within("", self.acceptance, visit);
+    visit_within("solver.", self.solver, visit);
+    visit("widening", self.widening, Unit::kNumber, 1, 100, "of the windows at the second try");
+    visit_within("keyframe.", self.descriptor_match, visit);
+  }
+};
+static_assert(Described<FallbackOptions<double>>);
+
+template <Scalar S>
+class FeatureFallback {
+ public:
+  FallbackOptions<S> options;
+
   // In: the frame's pose is the prediction. Out: the solved pose and its inlying matches; unchanged pose on
   // failure.
   [[nodiscard]] PoseEstimate<S> track(const Map<S>& map, const RecentLandmarks<S>& recent,
                                       const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
     PoseEstimate<S> estimate;
-    for (const S width : {S(1), widening}) {
-      match_recent(map, recent, width, match, frame);
+    for (const S width : {S(1), options.widening}) {
+      match_recent(map, recent, width, options.match, frame);
       estimate = solve(map, prior, frame);
       if (estimate.ok()) return estimate;
     }
@@ -41,7 +57,7 @@ class FeatureFallback {
     recent_.lines.clear();
     for (const LandmarkId landmark : keyframe.line_landmarks)
       if (landmark != kNone) recent_.lines.push_back(landmark);
-    match_lines_by_projection<S>(map, recent_.lines, frame, match.line_radius, match.lines,
+    match_lines_by_projection<S>(map, recent_.lines, frame, options.match.line_radius, options.match.lines,
                                  [](LandmarkId, bool) {});
     estimate = solve(map, prior, frame);
     if (!estimate.ok()) frame.cam_from_world = before;
@@ -53,7 +69,7 @@ class FeatureFallback {
     frame.forget_matches();
     // Every feature of the frame is a candidate: after a loss nothing is known about where to look.
     match_points_mutually<S>(
-        keyframe.frame.points, frame.frame.points, descriptor_match,
+        keyframe.frame.points, frame.frame.points, options.descriptor_match,
         [&](std::int32_t i, auto visit) {
           if (keyframe.point_landmarks[Map<S>::index(i)] == kNone) return;
           for (std::size_t j = 0; j < frame.frame.points.size(); ++j) visit(static_cast<std::int32_t>(j));
@@ -67,12 +83,12 @@ class FeatureFallback {
   [[nodiscard]] PoseEstimate<S> solve(const Map<S>& map, const RotationPrior<S>* prior,
                                       TrackedFrame<S>& frame) {
     matches_.gather(map, frame);
-    if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
+    if (static_cast<int>(matches_.size()) < options.acceptance.min_inliers) return {};
     SE3<S> pose = frame.cam_from_world;
-    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
-                                        matches_.point_inliers, matches_.line_inliers, prior);
+    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
+                                        options.solver, matches_.point_inliers, matches_.line_inliers, prior);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, acceptance);
+    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, options.acceptance);
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     frame.cam_from_world = pose;

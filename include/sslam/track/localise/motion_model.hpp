@@ -2,14 +2,26 @@
 // Constant velocity between frames, by their stamps: a dropped frame makes a longer step, not a wrong one.
 #pragma once
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/se3.hpp"
 
 namespace sslam {
 
+struct MotionOptions {
+  double horizon = 0.3;  // seconds without a pose, through which the velocity is believed; 0: not at all
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("horizon", self.horizon, Unit::kSeconds, 0, 3600,
+          "without a pose, through which the velocity is believed; 0: none");
+  }
+};
+static_assert(Described<MotionOptions>);
+
 template <Scalar S>
 class ConstantVelocity {
  public:
-  double horizon = 0.3;  // seconds without a pose, through which the velocity is believed; 0: not at all
+  MotionOptions options;
 
   // cam_from_world expected at `stamp`, seconds.
   [[nodiscard]] SE3<S> predict(double stamp) const {
@@ -17,7 +29,9 @@ class ConstantVelocity {
     return SE3<S>::exp(velocity_ * static_cast<S>(stamp - stamp_)) * pose_;
   }
 
-  [[nodiscard]] bool reaches(double stamp) const noexcept { return moving_ && stamp - stamp_ <= horizon; }
+  [[nodiscard]] bool reaches(double stamp) const noexcept {
+    return moving_ && stamp - stamp_ <= options.horizon;
+  }
 
   void update(const SE3<S>& cam_from_world, double stamp) {
     const double dt = stamp - stamp_;

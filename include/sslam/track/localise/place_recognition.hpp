@@ -8,20 +8,38 @@
 #include <span>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/track/matching/descriptor_buckets.hpp"
 #include "sslam/track/matching/match_points.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class PlaceRecognition {
- public:
+struct PlaceRecognitionOptions {
   int most = 3;           // keyframes to compare a frame with
   int max_distance = 50;  // bits between a landmark's descriptor and that of its feature
   S max_ratio = S(0.8);   // to the next best feature: landmarks that look like several do not vote
   int min_votes = 8;      // landmarks that a keyframe must share with the frame
 
-  // Appends up to `most` keyframes to `ranked`, those that share most landmarks with the frame first.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("candidates", self.most, Unit::kCount, 0, 1e+06, "places to compare with");
+    visit("max_distance", self.max_distance, Unit::kCount, 0, 256,
+          "bits between a landmark's descriptor and that of its feature");
+    visit("max_ratio", self.max_ratio, Unit::kShare, 0, 1,
+          "to the next best feature: landmarks that look like several do not vote");
+    visit("min_votes", self.min_votes, Unit::kCount, 1, 1e+06,
+          "landmarks that a keyframe must share with the frame");
+  }
+};
+static_assert(Described<PlaceRecognitionOptions<double>>);
+
+template <Scalar S>
+class PlaceRecognition {
+ public:
+  PlaceRecognitionOptions<S> options;
+
+  // Appends up to `options.most` keyframes to `ranked`, those that share most landmarks with the frame first.
   // Keyframes in `apart_from` are not asked for, nor is what they see.
   void rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked,
             std::span<const KeyframeId> apart_from = {}) {
@@ -30,10 +48,10 @@ class PlaceRecognition {
     vote(map, map.lines, &Keyframe<S>::line_landmarks, frame.lines, apart_from);
     order_.clear();
     for (std::size_t k = 0; k < votes_.size(); ++k)
-      if (votes_[k] >= min_votes) order_.push_back(static_cast<KeyframeId>(k));
+      if (votes_[k] >= options.min_votes) order_.push_back(static_cast<KeyframeId>(k));
     std::stable_sort(order_.begin(), order_.end(),
                      [&](KeyframeId a, KeyframeId b) { return votes_[map.index(a)] > votes_[map.index(b)]; });
-    const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max(most, 0)));
+    const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max(options.most, 0)));
     ranked.insert(ranked.end(), order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count));
   }
 
@@ -60,7 +78,7 @@ class PlaceRecognition {
     buckets_.near(descriptor, [&](std::int32_t f) {
       two.offer(hamming(descriptor, features[Map<S>::index(f)].descriptor), f);
     });
-    return two.accepted(max_distance, max_ratio);
+    return two.accepted(options.max_distance, options.max_ratio);
   }
 
   DescriptorBuckets buckets_;

@@ -3,19 +3,36 @@
 // the Manhattan rotation takes part as one more observation, weighed by its own covariance.
 #pragma once
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/local_map.hpp"
 #include "sslam/track/localise/translation.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class LocalMapRefinement {
- public:
+struct RefinementOptions {
   MatchOptions<S> match{.point_radius = 6, .line_radius = 10, .points = {}, .lines = {}};
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.3)};
   int min_inliers_turned = 5;  // instead of the acceptance's, where the Manhattan frame gives the rotation
   PoseRefinementOptions<S> solver;
   std::size_t max_keyframes = 20;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.match, visit);
+    visit_within("", self.acceptance, visit);
+    visit_within("solver.", self.solver, visit);
+    visit("min_inliers_turned", self.min_inliers_turned, Unit::kCount, 3, 1e+06,
+          "min_inliers where the Manhattan frame gives the rotation");
+    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e+06, "of the local map");
+  }
+};
+static_assert(Described<RefinementOptions<double>>);
+
+template <Scalar S>
+class LocalMapRefinement {
+ public:
+  RefinementOptions<S> options;
 
   // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the
   // landmarks' visible and found counts are brought up to date. Unchanged pose on failure.
@@ -30,17 +47,17 @@ class LocalMapRefinement {
   // The same for a place that is only supposed: the map stays as it is.
   [[nodiscard]] PoseEstimate<S> refine_uncounted(const Map<S>& map, const RotationPrior<S>* prior,
                                                  TrackedFrame<S>& frame) {
-    local_.gather(map, frame.point_landmarks, frame.line_landmarks, max_keyframes);
+    local_.gather(map, frame.point_landmarks, frame.line_landmarks, options.max_keyframes);
     drop_matched(local_.points, frame.point_landmarks, visible_points_);
     drop_matched(local_.lines, frame.line_landmarks, visible_lines_);
-    match_points_by_projection<S>(map, local_.points, frame, match.point_radius, match.points,
+    match_points_by_projection<S>(map, local_.points, frame, options.match.point_radius, options.match.points,
                                   [&](LandmarkId id, bool) { visible_points_.push_back(id); });
-    match_lines_by_projection<S>(map, local_.lines, frame, match.line_radius, match.lines,
+    match_lines_by_projection<S>(map, local_.lines, frame, options.match.line_radius, options.match.lines,
                                  [&](LandmarkId id, bool) { visible_lines_.push_back(id); });
     matches_.gather(map, frame);
     SE3<S> pose = frame.cam_from_world;
-    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose, solver,
-                                        matches_.point_inliers, matches_.line_inliers, prior);
+    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
+                                        options.solver, matches_.point_inliers, matches_.line_inliers, prior);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
     const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
     if (!estimate.ok()) return estimate;
@@ -51,8 +68,8 @@ class LocalMapRefinement {
 
   // What a pose must show, with a rotation from the Manhattan frame or without one.
   [[nodiscard]] PoseAcceptance<S> accepts(const RotationPrior<S>* prior) const noexcept {
-    PoseAcceptance<S> wanted = acceptance;
-    if (prior != nullptr) wanted.min_inliers = min_inliers_turned;
+    PoseAcceptance<S> wanted = options.acceptance;
+    if (prior != nullptr) wanted.min_inliers = options.min_inliers_turned;
     return wanted;
   }
 

@@ -14,6 +14,11 @@ class Relocalisation {
  public:
   PlaceRecognition<S> places;
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_stage("", self.places, visit);
+  }
+
   // Compares the frame with `reference`, then with the keyframes that look most like it, and with one of all
   // in turn, until the pose at one of them is found, refined and agreed to by `agrees()`; `reference` becomes
   // that keyframe.

@@ -15,7 +15,18 @@ struct MatchOptions {
   S line_radius = 25;   // pixels between a predicted line and the ends of a segment
   PointMatchOptions<S> points;
   LineMatchOptions<S> lines;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("point_radius", self.point_radius, Unit::kPixels, 0.1, kUnbounded,
+          "search window around a predicted point");
+    visit("line_radius", self.line_radius, Unit::kPixels, 0.1, kUnbounded,
+          "search band around a predicted line");
+    visit_within("points.", self.points, visit);
+    visit_within("lines.", self.lines, visit);
+  }
 };
+static_assert(Described<MatchOptions<double>>);
 
 // Drops the frame's matches and finds new ones among the recent landmarks, from the pose that the frame has
 // now.
@@ -31,24 +42,37 @@ void match_recent(const Map<S>& map, const RecentLandmarks<S>& recent, S widenin
 }
 
 template <Scalar S>
-class DecoupledTranslation {
- public:
+struct DecoupledTranslationOptions {
   MatchOptions<S> match;
   PoseAcceptance<S> acceptance{.min_inliers = 5, .min_inlier_share = S(0.6)};
   PoseRefinementOptions<S> solver;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.match, visit);
+    visit_within("", self.acceptance, visit);
+    visit_within("solver.", self.solver, visit);
+  }
+};
+static_assert(Described<DecoupledTranslationOptions<double>>);
+
+template <Scalar S>
+class DecoupledTranslation {
+ public:
+  DecoupledTranslationOptions<S> options;
 
   // In: the frame's pose has its Manhattan rotation and a predicted translation. Out: the solved translation
   // and the inlying matches, or, on failure, an unchanged pose.
   [[nodiscard]] PoseEstimate<S> translate(const Map<S>& map, const RecentLandmarks<S>& recent,
                                           TrackedFrame<S>& frame) {
-    match_recent(map, recent, S(1), match, frame);
+    match_recent(map, recent, S(1), options.match, frame);
     matches_.gather(map, frame);
-    if (static_cast<int>(matches_.size()) < acceptance.min_inliers) return {};
+    if (static_cast<int>(matches_.size()) < options.acceptance.min_inliers) return {};
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
-                                               solver, matches_.point_inliers, matches_.line_inliers);
+                                               options.solver, matches_.point_inliers, matches_.line_inliers);
     if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, acceptance);
+    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, options.acceptance);
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
     frame.cam_from_world = pose;

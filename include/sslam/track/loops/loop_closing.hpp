@@ -55,7 +55,7 @@ class LoopClosing {
     const std::optional<Loop<S>> loop = detection.find(map, id, map);
     if (!loop) return {};
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    const bool drifted = share_in_place(map, keyframe, *loop, fusion.point_radius) < options.in_place;
+    const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < options.in_place;
     // A place that the map expects nearby needs no second sighting.
     const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
     if (drifted && share_in_place(map, keyframe, *loop, nearby.reach) < nearby.min_share &&

@@ -43,15 +43,15 @@ template <Scalar S>
 class LoopDetection {
  public:
   LoopDetectionOptions<S> options;
-  PlaceRecognition<S> places;  // places.most: keyframes to try; 0: no loop is ever found
+  PlaceRecognition<S> places;  // places.options.most: keyframes to try; 0: no loop is ever found
   PlaceConfirmation<S> confirmation;
   FeatureFallback<S> alignment;
   LocalMapRefinement<S> refinement;
 
   LoopDetection() {
-    places.most = 2;
-    places.min_votes = 20;
-    refinement.acceptance.min_inliers = 25;
+    places.options.most = 2;
+    places.options.min_votes = 20;
+    refinement.options.acceptance.min_inliers = 25;
   }
 
   // The place of a keyframe of `here` in `there`, which may be the same map.
@@ -63,7 +63,7 @@ class LoopDetection {
       for (const Neighbour& n : keyframe.neighbours) connected_.push_back(n.keyframe);
     }
     candidates_.clear();
-    if (places.most > 0) places.rank(there, keyframe.frame, candidates_, connected_);
+    if (places.options.most > 0) places.rank(there, keyframe.frame, candidates_, connected_);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       // Next to a keyframe that was tried in vain is the same place.
       if (i > 0 && covisible(there.keyframes[there.index(candidates_[0])], candidates_[i])) continue;

@@ -2,23 +2,41 @@
 // Fusion: landmarks that stand twice in the map become one, and keyframes see landmarks that they had missed.
 #pragma once
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/local_map.hpp"
 #include "sslam/track/matching/match_lines.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class LandmarkFusion {
- public:
+struct FusionOptions {
   std::size_t max_neighbours = 8;
   S point_radius = 3;  // pixels between a projected landmark and the feature that takes it over
   S line_radius = 4;   // pixels between a projected line and the ends of the segment
   PointMatchOptions<S> points{.max_distance = 50};
   LineMatchOptions<S> lines{.max_distance = 60};
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e+06, "keyframes to fuse with");
+    visit("point_radius", self.point_radius, Unit::kPixels, 0.1, kUnbounded,
+          "between a projected landmark and the feature that takes it over");
+    visit("line_radius", self.line_radius, Unit::kPixels, 0.1, kUnbounded,
+          "between a projected line and the ends of the segment");
+    visit_within("points.", self.points, visit);
+    visit_within("lines.", self.lines, visit);
+  }
+};
+static_assert(Described<FusionOptions<double>>);
+
+template <Scalar S>
+class LandmarkFusion {
+ public:
+  FusionOptions<S> options;
+
   // Both ways between the keyframe and its neighbours.
   void fuse(Map<S>& map, KeyframeId id) {
-    local_.gather_around(map, id, max_neighbours + 1);
+    local_.gather_around(map, id, options.max_neighbours + 1);
     const auto around = local_.keyframes;
     const auto neighbour_points = local_.points;
     const auto neighbour_lines = local_.lines;
@@ -51,18 +69,19 @@ class LandmarkFusion {
   void fuse_point(Map<S>& map, KeyframeId target, LandmarkId id) {
     const Keyframe<S>& kf = map.keyframes[map.index(target)];
     const PointLandmark<S>& landmark = map.points[map.index(id)];
-    const auto predicted = predict_point(landmark, kf.frame, kf.cam_from_world, points.min_view_cosine);
+    const auto predicted =
+        predict_point(landmark, kf.frame, kf.cam_from_world, options.points.min_view_cosine);
     if (!predicted.visible) return;
-    const S reach = point_radius * std::max(S(1), predicted.sigma);
+    const S reach = options.point_radius * std::max(S(1), predicted.sigma);
     BestTwo two;
     grid_.near(predicted.pixel, reach, [&](std::int32_t i) {
       const PointFeature<S>& feature = kf.frame.points[map.index(i)];
       const S scale = feature.sigma / predicted.sigma;
-      if (scale > points.max_scale_ratio || scale * points.max_scale_ratio < 1) return;
+      if (scale > options.points.max_scale_ratio || scale * options.points.max_scale_ratio < 1) return;
       if ((feature.pixel - predicted.pixel).squaredNorm() < reach * reach)
         two.offer(hamming(landmark.descriptor, feature.descriptor), i);
     });
-    if (two.index == kNone || two.best > points.max_distance) return;
+    if (two.index == kNone || two.best > options.points.max_distance) return;
     const LandmarkId other = kf.point_landmarks[map.index(two.index)];
     if (other == kNone) {
       map.observe_point(id, target, map.index(two.index));
@@ -76,13 +95,13 @@ class LandmarkFusion {
   void fuse_line(Map<S>& map, KeyframeId target, LandmarkId id) {
     const Keyframe<S>& kf = map.keyframes[map.index(target)];
     const LineLandmark<S>& landmark = map.lines[map.index(id)];
-    const auto predicted = predict_segment(landmark, kf.frame, kf.cam_from_world, lines.near_plane);
-    if (!predicted || predicted->length() < line_radius) return;
+    const auto predicted = predict_segment(landmark, kf.frame, kf.cam_from_world, options.lines.near_plane);
+    if (!predicted || predicted->length() < options.line_radius) return;
     BestTwo two;
     for (std::size_t i = 0; i < kf.frame.lines.size(); ++i)
-      if (segments_agree(*predicted, kf.frame.lines[i].segment, line_radius, lines))
+      if (segments_agree(*predicted, kf.frame.lines[i].segment, options.line_radius, options.lines))
         two.offer(hamming(landmark.descriptor, kf.frame.lines[i].descriptor), static_cast<std::int32_t>(i));
-    if (two.index == kNone || two.best > lines.max_distance) return;
+    if (two.index == kNone || two.best > options.lines.max_distance) return;
     const LandmarkId other = kf.line_landmarks[map.index(two.index)];
     if (other == kNone) {
       map.observe_line(id, target, map.index(two.index));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sslam/core/median.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/triangulation/triangulate_point.hpp"
 #include "sslam/solver/two_view/find_relative_pose.hpp"
 #include "sslam/solver/two_view/relative_pose.hpp"
@@ -20,26 +21,54 @@
 namespace sslam {
 
 template <Scalar S>
-class DecoupledInitialisation {
- public:
-  S search_radius = 30;            // pixels around where a feature was last seen, turned with the camera
-  int min_matches = 18;            // with the reference frame: fewer make the newest frame the reference
-  int min_points = 20;             // landmarks that a first map must have
-  S min_parallax = radians(S(1));  // of a landmark that counts
+struct InitialisationOptions {
+  S search_radius = 30;  // pixels around where a feature was last seen, turned with the camera
+  int min_matches = 18;  // with the reference frame: fewer make the newest frame the reference
+  int min_points = 20;   // landmarks that a first map must have
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
   S max_rotation_sigma = radians(S(2));   // of a Manhattan rotation that is taken as known
   S scene_depth = 1;                      // median depth of the first map: sets the monocular scale
-  RelativePoseOptions<S> refinement;
-  std::uint64_t seed = 1;
   PointMatchOptions<S> match{.max_distance = 60, .max_ratio = S(0.9)};
+  TranslationOptions<S> translation;  // with a Manhattan rotation
+  FindRelativePoseOptions<S> pose;    // without one; its refinement serves both
+  PointTriangulationOptions<S> triangulation;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_points", self.min_points, Unit::kCount, 8, 1e+06, "landmarks of the first map");
+    visit("min_matches", self.min_matches, Unit::kCount, 5, 1e+06, "matches with the reference frame");
+    visit("min_parallax", self.triangulation.min_parallax, Unit::kDegrees, 0, 90,
+          "of a landmark that counts");
+    visit("max_direction_sigma", self.max_direction_sigma, Unit::kDegrees, 0, 180,
+          "standard deviation of the direction of the translation");
+    visit("max_rotation_sigma", self.max_rotation_sigma, Unit::kDegrees, 0, 180,
+          "standard deviation of a Manhattan rotation that is taken as known");
+    visit("search_radius", self.search_radius, Unit::kPixels, 1, kUnbounded,
+          "around where a feature was last seen");
+    visit("scene_depth", self.scene_depth, Unit::kNumber, 1e-06, 1e+06,
+          "median depth of the first map: sets the scale");
+    visit_within("match.", self.match, visit);
+    visit_within("translation.", self.translation, visit);
+    visit_within("pose.", self.pose, visit);
+    visit_within("triangulation.", self.triangulation, visit);
+  }
+};
+static_assert(Described<InitialisationOptions<double>>);
+
+template <Scalar S>
+class DecoupledInitialisation {
+ public:
+  InitialisationOptions<S> options;
+  std::uint64_t seed = 1;
 
   // Tries to make a first map from the reference frame and this one. On success (kFine) the map holds both as
   // keyframes with their points, and the frame has its pose and matches.
   [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map) {
-    if (frame.frame.points.size() < static_cast<std::size_t>(min_points)) return Reason::kTooFewFeatures;
+    if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
+      return Reason::kTooFewFeatures;
     if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
     follow(frame);
-    if (static_cast<int>(pairs_.size()) < min_matches) return adopt(frame, Reason::kTooFewMatches);
+    if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
     SO3<S> R_10;
     Vec3<S> t_10;
     const Reason reason = relative_pose(frame, R_10, t_10);
@@ -64,17 +93,17 @@ class DecoupledInitialisation {
     const SO3<S> turn = frame.cam_from_world.rotation * last_rotation_.inverse();
     const Pinhole<S>& pinhole = frame.frame.pinhole;
     match_points_mutually<S>(
-        reference_.frame.points, frame.frame.points, match,
+        reference_.frame.points, frame.frame.points, options.match,
         [&](std::int32_t i, auto visit) {
           const Vec3<S> ray = turn * pinhole.unproject(last_pixels_[Map<S>::index(i)]);
           if (ray.z() <= 0) return;
           const Vec2<S> expected = pinhole.project(ray);
           const PointFeature<S>& from = reference_.frame.points[Map<S>::index(i)];
-          frame.grid.near(expected, search_radius, [&](std::int32_t j) {
+          frame.grid.near(expected, options.search_radius, [&](std::int32_t j) {
             const PointFeature<S>& to = frame.frame.points[Map<S>::index(j)];
             const S scale = to.sigma / from.sigma;
-            if (scale < match.max_scale_ratio && scale * match.max_scale_ratio > 1 &&
-                (to.pixel - expected).squaredNorm() < search_radius * search_radius)
+            if (scale < options.match.max_scale_ratio && scale * options.match.max_scale_ratio > 1 &&
+                (to.pixel - expected).squaredNorm() < options.search_radius * options.search_radius)
               visit(j);
           });
         },
@@ -102,15 +131,13 @@ class DecoupledInitialisation {
     RelativePoseSummary<S> summary = decoupled(R_10, t_10);
     if (!usable(summary.status)) {
       // No Manhattan frame, or one that the matches do not agree with.
-      FindRelativePoseOptions<S> options;
-      options.refinement = refinement;
-      const auto alone = find_relative_pose<S>(bearings_, options, seed, R_10, t_10, inliers_);
+      const auto alone = find_relative_pose<S>(bearings_, options.pose, seed, R_10, t_10, inliers_);
       if (usable(alone.status) || summary.status == Status::kTooFew) summary = alone;
     }
     if (summary.status == Status::kLowParallax) return Reason::kLowParallax;
     if (!usable(summary.status)) return Reason::kNoConsensus;
     const S sigma = std::sqrt(summary.translation_covariance.trace());
-    return sigma < max_direction_sigma ? Reason::kFine : Reason::kLowParallax;
+    return sigma < options.max_direction_sigma ? Reason::kFine : Reason::kLowParallax;
   }
 
   // The relative rotation that the two Manhattan rotations give, and its covariance, where both are there.
@@ -126,15 +153,15 @@ class DecoupledInitialisation {
   // is held by its covariance. kTooFew without a Manhattan rotation that can be trusted about every axis.
   [[nodiscard]] RelativePoseSummary<S> decoupled(SO3<S>& R_10, Vec3<S>& t_10) {
     if (!prior_) return {};
-    TranslationOptions<S> options;
-    options.rotation_sigma = std::sqrt(prior_->covariance.trace() / 3);
-    if (!(options.rotation_sigma < max_rotation_sigma)) return {};
-    const auto estimate = translation_from_rotation<S>(bearings_, prior_->cam_from_world, options, seed);
+    TranslationOptions<S> known = options.translation;
+    known.rotation_sigma = std::sqrt(prior_->covariance.trace() / 3);
+    if (!(known.rotation_sigma < options.max_rotation_sigma)) return {};
+    const auto estimate = translation_from_rotation<S>(bearings_, prior_->cam_from_world, known, seed);
     if (!usable(estimate.status)) return {.status = estimate.status};
     R_10 = prior_->cam_from_world;
     t_10 = estimate.t_10;
-    RelativePoseOptions<S> held = refinement;
-    held.start_sigma = options.rotation_sigma;
+    RelativePoseOptions<S> held = options.pose.refinement;
+    held.start_sigma = known.rotation_sigma;
     held.prior_R_10 = prior_->cam_from_world;
     held.prior_information = prior_->covariance.inverse();
     return refine_relative_pose<S>(bearings_, R_10, t_10, held, inliers_);
@@ -151,15 +178,13 @@ class DecoupledInitialisation {
       const std::array views{
           PointView<S>{SE3<S>(), bearing.ray0.template head<2>(), bearing.sigma},
           PointView<S>{frame_from_reference, bearing.ray1.template head<2>(), bearing.sigma}};
-      PointTriangulationOptions<S> options;
-      options.min_parallax = min_parallax;
-      const auto answer = triangulate_point<S>(views, options);
+      const auto answer = triangulate_point<S>(views, options.triangulation);
       if (!usable(answer.status)) continue;
       seeds_.push_back({pairs_[i], answer.point});
       depths_.push_back(answer.point.z());
     }
-    if (static_cast<int>(seeds_.size()) < min_points) return Reason::kLowParallax;
-    const S scale = scene_depth / median<S>(depths_);
+    if (static_cast<int>(seeds_.size()) < options.min_points) return Reason::kLowParallax;
+    const S scale = options.scene_depth / median<S>(depths_);
     reference_.cam_from_world = {reference_rotation(frame, R_10), Vec3<S>::Zero()};
     frame.cam_from_world = {R_10 * reference_.cam_from_world.rotation, scale * t_10};
     reference_.forget_matches();

@@ -6,16 +6,32 @@
 #include <algorithm>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class KeyframeCulling {
- public:
+struct KeyframeCullingOptions {
   S redundant_share = S(0.9);  // of a keyframe's landmarks, seen well elsewhere: it goes; over 1: never
   int min_others = 3;          // other keyframes that must see a landmark, points from as near
   int spared = 5;              // newest keyframes, which still wait for their neighbours
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("redundant_share", self.redundant_share, Unit::kNumber, 0, 2,
+          "of a keyframe's landmarks, seen well elsewhere: it is removed (over 1: never)");
+    visit("min_others", self.min_others, Unit::kCount, 1, 1e+06,
+          "other keyframes that must see a landmark as well");
+    visit("spared", self.spared, Unit::kCount, 0, 1e+06, "newest keyframes that always stay");
+  }
+};
+static_assert(Described<KeyframeCullingOptions<double>>);
+
+template <Scalar S>
+class KeyframeCulling {
+ public:
+  KeyframeCullingOptions<S> options;
 
   // Removes redundant keyframes among the neighbours of `now`. The first map's two are never removed: they
   // hold place and scale.
@@ -23,7 +39,7 @@ class KeyframeCulling {
     candidates_ = map.keyframes[map.index(now)].neighbours;
     for (const Neighbour& candidate : candidates_) {
       const KeyframeId id = candidate.keyframe;
-      if (id < 2 || id + spared > now || !is_redundant(map, map.keyframes[map.index(id)])) continue;
+      if (id < 2 || id + options.spared > now || !is_redundant(map, map.keyframes[map.index(id)])) continue;
       map.erase_keyframe(id, map.keyframes[map.index(id)].neighbours.front().keyframe);
     }
   }
@@ -39,7 +55,7 @@ class KeyframeCulling {
         const auto others =
             std::count_if(observations.begin(), observations.end(),
                           [&](const Observation& o) { return o.keyframe != keyframe.id && as_good(o, i); });
-        elsewhere += others >= min_others;
+        elsewhere += others >= options.min_others;
       }
     };
     const auto octave = [](const Keyframe<S>& kf, std::size_t i) { return kf.frame.points[i].octave; };
@@ -47,7 +63,7 @@ class KeyframeCulling {
       return octave(map.keyframes[map.index(o.keyframe)], map.index(o.feature)) <= octave(keyframe, i) + 1;
     });
     judge(keyframe.line_landmarks, map.lines, [](const Observation&, std::size_t) { return true; });
-    return held > 0 && static_cast<S>(elsewhere) >= redundant_share * static_cast<S>(held);
+    return held > 0 && static_cast<S>(elsewhere) >= options.redundant_share * static_cast<S>(held);
   }
 
   std::vector<Neighbour> candidates_;

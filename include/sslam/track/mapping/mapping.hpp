@@ -37,6 +37,16 @@ class KeyframeMapping {
   Planes planes;
   Optimiser optimiser;
 
+  // All but those of the planes, which have a name of their own.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_stage("", self.creation, visit);
+    visit_stage("fusion.", self.fusion, visit);
+    visit_stage("", self.culling, visit);
+    visit_stage("", self.keyframe_culling, visit);
+    visit_stage("adjustment.", self.optimiser, visit);
+  }
+
   // The tracked frame joins the map; its pose and matches are updated with what mapping makes of them.
   KeyframeId insert(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
     const KeyframeId id = map.add_keyframe(frame.to_keyframe());

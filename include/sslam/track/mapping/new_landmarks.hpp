@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/triangulation/triangulate_line.hpp"
 #include "sslam/solver/triangulation/triangulate_point.hpp"
 #include "sslam/track/matching/match_lines.hpp"
@@ -20,12 +21,37 @@ struct NewLandmarkOptions {
   S min_baseline = S(0.015);             // between the two cameras over the median scene depth
   S nearest = S(0.2), farthest = S(15);  // depth of a new landmark over the median scene depth
   S max_epipolar = S(2.5);               // distance from the epipolar line over the feature's sigma
-  S min_point_parallax = radians(S(0.8));
-  S min_line_parallax = radians(S(2));  // between the interpretation planes
-  S min_line_overlap = S(0.3);          // of the stretches that the two views see
+  S min_line_overlap = S(0.3);           // of the stretches that the two views see
+  PointTriangulationOptions<S> point{.min_parallax = radians(S(0.8))};
+  LineTriangulationOptions<S> line{.min_parallax = radians(S(2)), .solver = {}};
   PointMatchOptions<S> points{.max_distance = 50};
   LineMatchOptions<S> lines{.max_distance = 50, .max_angle = radians(S(20))};
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("use_points", self.use_points, Unit::kCount, 0, 1, "1: new points are made");
+    visit("use_lines", self.use_lines, Unit::kCount, 0, 1, "1: new lines are made");
+    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e+06, "keyframes to triangulate with");
+    visit("min_baseline", self.min_baseline, Unit::kNumber, 0, 1e+06,
+          "between two keyframes over the median scene depth");
+    visit("nearest", self.nearest, Unit::kNumber, 0, 1e+06,
+          "depth of a new landmark over the median scene depth, at least");
+    visit("farthest", self.farthest, Unit::kNumber, 0, 1e+06,
+          "depth of a new landmark over the median scene depth, at most");
+    visit("max_epipolar", self.max_epipolar, Unit::kNumber, 0.1, 1000,
+          "distance from the epipolar line over the feature's sigma");
+    visit("min_point_parallax", self.point.min_parallax, Unit::kDegrees, 0, 90, "of a new point");
+    visit("min_line_parallax", self.line.min_parallax, Unit::kDegrees, 0, 90,
+          "between the planes of a new line");
+    visit("min_line_overlap", self.min_line_overlap, Unit::kShare, 0, 1,
+          "of the stretches that the two views see");
+    visit_within("points.", self.points, visit);
+    visit_within("lines.", self.lines, visit);
+    visit_within("point.", self.point, visit);
+    visit_within("line.", self.line, visit);
+  }
 };
+static_assert(Described<NewLandmarkOptions<double>>);
 
 template <Scalar S>
 class NewLandmarks {
@@ -103,7 +129,7 @@ class NewLandmarks {
                           f.sigma / kf.frame.pinhole.fx};
     };
     const std::array views{view(a, p.first), view(b, p.second)};
-    const auto answer = triangulate_point<S>(views, point_options());
+    const auto answer = triangulate_point<S>(views, options.point);
     if (!usable(answer.status) || !plausible_depth(a, answer.point, median_depth)) return false;
     const LandmarkId landmark = map.add_point(answer.point, id_a);
     map.observe_point(landmark, id_b, Map<S>::index(p.second));
@@ -163,26 +189,15 @@ class NewLandmarks {
   // the Manhattan axis which both views see the segment follow.
   [[nodiscard]] LineTriangulation<S> triangulate(const Map<S>& map, std::int8_t axis_a, std::int8_t axis_b,
                                                  std::span<const LineView<S>> views) const {
-    const auto answer = triangulate_line<S>(views, line_options());
+    const auto answer = triangulate_line<S>(views, options.line);
     if (answer.status != Status::kLowParallax || axis_a == kNone || axis_a != axis_b) return answer;
-    return triangulate_line_along<S>(views, map.axis(axis_a), line_options());
+    return triangulate_line_along<S>(views, map.axis(axis_a), options.line);
   }
 
   [[nodiscard]] bool plausible_depth(const Keyframe<S>& keyframe, const Vec3<S>& point,
                                      S median_depth) const {
     const S depth = (keyframe.cam_from_world * point).z();
     return depth > options.nearest * median_depth && depth < options.farthest * median_depth;
-  }
-
-  [[nodiscard]] PointTriangulationOptions<S> point_options() const {
-    PointTriangulationOptions<S> o;
-    o.min_parallax = options.min_point_parallax;
-    return o;
-  }
-  [[nodiscard]] LineTriangulationOptions<S> line_options() const {
-    LineTriangulationOptions<S> o;
-    o.min_parallax = options.min_line_parallax;
-    return o;
   }
 
   SE3<S> b_from_a_;

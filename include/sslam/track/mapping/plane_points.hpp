@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/feature_grid.hpp"
 #include "sslam/map/plane_extent.hpp"
 #include "sslam/track/matching/match_points.hpp"
@@ -13,21 +14,38 @@
 namespace sslam {
 
 template <Scalar S>
-class PlanePoints {
- public:
+struct PlanePointOptions {
   std::size_t few_landmarks = 0;   // that a keyframe sees, points and lines, below which it is done; 0: never
   std::size_t max_neighbours = 3;  // connected keyframes to match with
   S reach = S(0.15);               // of a plane beyond its members, over the median scene depth
   S max_error = 3;                 // between the point's image and its match, standard deviations
   PointMatchOptions<S> match{.max_distance = 50};
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    // few_landmarks is listed with the planes.
+    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e+06, "keyframes to match with");
+    visit("reach", self.reach, Unit::kNumber, 0, 1e+06,
+          "of a plane beyond its members over the median scene depth");
+    visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
+          "between a point's image and its match, standard deviations");
+    visit_within("", self.match, visit);
+  }
+};
+static_assert(Described<PlanePointOptions<double>>);
+
+template <Scalar S>
+class PlanePoints {
+ public:
+  PlanePointOptions<S> options;
+
   // Returns how many points were added; each is a member of its plane, which bundle adjustment may take back.
   int create(Map<S>& map, KeyframeId id, S median_depth) {
-    if (few_landmarks == 0 || seen(map.keyframes[map.index(id)]) >= few_landmarks) return 0;
+    if (options.few_landmarks == 0 || seen(map.keyframes[map.index(id)]) >= options.few_landmarks) return 0;
     gather_extents(map, extents_);
     int added = 0;
     const auto neighbours = map.keyframes[map.index(id)].neighbours;
-    for (std::size_t i = 0; i < neighbours.size() && i < max_neighbours; ++i)
+    for (std::size_t i = 0; i < neighbours.size() && i < options.max_neighbours; ++i)
       added += create_with(map, id, neighbours[i].keyframe, median_depth);
     return added;
   }
@@ -51,7 +69,7 @@ class PlanePoints {
       if (a.point_landmarks[i] == kNone)
         intersections_[i] = meet(map, a, a.frame.points[i].pixel, median_depth);
     match_points_mutually<S>(
-        a.frame.points, b.frame.points, match,
+        a.frame.points, b.frame.points, options.match,
         [&](std::int32_t i, auto visit) {
           const auto& hit = intersections_[map.index(i)];
           if (!hit) return;
@@ -59,12 +77,12 @@ class PlanePoints {
           if (!(in_b.z() > 0)) return;
           const Vec2<S> expected = b.frame.pinhole.project(in_b);
           const S sigma = a.frame.points[map.index(i)].sigma;
-          const S radius = max_error * sigma;
+          const S radius = options.max_error * sigma;
           grid_.near(expected, radius, [&](std::int32_t j) {
             const PointFeature<S>& other = b.frame.points[map.index(j)];
             const S scale = other.sigma / sigma;
-            if (b.point_landmarks[map.index(j)] != kNone || scale > match.max_scale_ratio ||
-                scale * match.max_scale_ratio < 1)
+            if (b.point_landmarks[map.index(j)] != kNone || scale > options.match.max_scale_ratio ||
+                scale * options.match.max_scale_ratio < 1)
               return;
             if ((other.pixel - expected).squaredNorm() < radius * radius) visit(j);
           });
@@ -92,7 +110,7 @@ class PlanePoints {
       if (!map.planes[p].alive || !map.planes[p].plane.meet(world_from_cam.translation, ray, along)) continue;
       if (!(along > 0) || along >= nearest) continue;
       const Vec3<S> place = world_from_cam.translation + along * ray;
-      if (!extents_[p].covers(place, reach * median_depth)) continue;
+      if (!extents_[p].covers(place, options.reach * median_depth)) continue;
       nearest = along;
       best = Intersection{place, static_cast<LandmarkId>(p)};
     }

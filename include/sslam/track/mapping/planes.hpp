@@ -7,6 +7,7 @@
 #include <concepts>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/landmark_precision.hpp"
 #include "sslam/map/local_map.hpp"
 #include "sslam/map/plane_extent.hpp"
@@ -42,13 +43,42 @@ struct PlaneOptions {
   // Between the keyframe's rotation and the one that the Manhattan frame gives it: beyond, or where it gives
   // none, the walls here are not the frame's, and no plane is looked for.
   S max_turn = radians(S(0.5));
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_members", self.min_members, Unit::kCount, 0, 1e+06,
+          "points and lines that make a plane; 0: none is looked for");
+    visit("tolerance", self.tolerance, Unit::kNumber, 1e-06, 10,
+          "distance of a member from its plane over the median scene depth");
+    visit("max_sigma", self.max_sigma, Unit::kNumber, 1e-06, 10,
+          "of a member along the plane's normal over the median scene depth");
+    visit("max_tilt", self.max_tilt, Unit::kDegrees, 0, 90, "of a line against its plane");
+    visit("min_spread", self.min_spread, Unit::kNumber, 0, 10,
+          "of the members in the plane over the median scene depth");
+    visit("min_contrast", self.min_contrast, Unit::kNumber, 0, 1e+06,
+          "members over what their surroundings make expect");
+    visit("reach", self.reach, Unit::kNumber, 0, 1e+06,
+          "of a plane beyond its members over the median scene depth");
+    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e+06, "whose landmarks are looked at");
+    visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180,
+          "between a keyframe's rotation and the Manhattan frame's, beyond which it finds none");
+  }
 };
+static_assert(Described<PlaneOptions<double>>);
 
 template <Scalar S>
 class ManhattanPlanes {
  public:
   PlaneOptions<S> options;
   PlanePoints<S> points;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+    visit("few_landmarks", self.points.options.few_landmarks, Unit::kCount, 0, 1e6,
+          "of a keyframe, below which planes give new points their depth; 0: never");
+    visit_stage("points.", self.points, visit);
+  }
 
   void find(Map<S>& map, KeyframeId id, S median_depth) {
     if (options.min_members == 0) return;

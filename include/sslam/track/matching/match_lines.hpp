@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/track/matching/match_points.hpp"
 
 namespace sslam {
@@ -19,7 +20,21 @@ struct LineMatchOptions {
   S max_angle = radians(S(6));  // between the predicted and the seen segment
   S min_overlap = S(0.3);       // of the shorter segment, along the predicted one
   S near_plane = S(1e-2);       // depth below which a landmark is cut off, map units
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_distance", self.max_distance, Unit::kCount, 0, 256,
+          "bits in which two views of one segment may differ");
+    visit("max_ratio", self.max_ratio, Unit::kShare, 0, 1,
+          "best distance over second best, by descriptor alone");
+    visit("max_angle", self.max_angle, Unit::kDegrees, 0, 90, "between the predicted and the seen segment");
+    visit("min_overlap", self.min_overlap, Unit::kShare, 0, 1,
+          "of the shorter segment along the predicted one");
+    visit("near_plane", self.near_plane, Unit::kNumber, 0, 1e+06,
+          "depth below which a landmark is cut off, units of the map");
+  }
 };
+static_assert(Described<LineMatchOptions<double>>);
 
 // The part of a 3D segment in front of the camera, in pixels; nothing when it lies behind or outside the
 // image.

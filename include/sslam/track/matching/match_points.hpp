@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
 
@@ -20,7 +21,19 @@ struct PointMatchOptions {
   S max_ratio = S(0.85);       // best distance over second best: lower is less ambiguous
   S max_scale_ratio = S(1.6);  // feature size against the size that distance predicts
   S min_view_cosine = S(0.5);  // between the mean viewing direction and this one: 60 degrees
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_distance", self.max_distance, Unit::kCount, 0, 256,
+          "bits in which two views of one point may differ");
+    visit("max_ratio", self.max_ratio, Unit::kShare, 0, 1, "best distance over second best");
+    visit("max_scale_ratio", self.max_scale_ratio, Unit::kNumber, 1, 100,
+          "feature size against the size that distance predicts");
+    visit("min_view_cosine", self.min_view_cosine, Unit::kNumber, -1, 1,
+          "cosine of the turn of the viewing direction");
+  }
 };
+static_assert(Described<PointMatchOptions<double>>);
 
 // Best and second best of a stream of candidates.
 struct BestTwo {

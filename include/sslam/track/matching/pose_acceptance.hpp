@@ -18,7 +18,18 @@ struct PoseAcceptance {
   S min_inlier_share = S(0.4);     // of all matches
   S max_position_sigma = S(0.03);  // standard deviation of the camera's place over the median scene depth
   S max_rotation_sigma = radians(S(1.5));  // standard deviation of the camera's rotation, about any axis
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("min_inliers", self.min_inliers, Unit::kCount, 3, 1e+06, "points plus lines");
+    visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
+    visit("max_position_sigma", self.max_position_sigma, Unit::kNumber, 0, kUnbounded,
+          "of the camera's place, over the median scene depth");
+    visit("max_rotation_sigma", self.max_rotation_sigma, Unit::kDegrees, 0, 180,
+          "of the camera's rotation, where that is solved for");
+  }
 };
+static_assert(Described<PoseAcceptance<double>>);
 
 // Judges a solved pose by its inliers and, through the information matrix of the tangent xi = (phi, rho) or
 // of rho alone, by how well they pin it down.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/opencv/normals/normal_grid.hpp"
+#include "sslam/image/normal_grid.hpp"
 
-#include "sslam/opencv/normals/no_normals.hpp"
 #include "support/catch.hpp"
 
 using namespace sslam;
@@ -22,11 +21,4 @@ TEST_CASE("normals count as far as their neighbours agree") {
     CHECK(field.z[i] == -1);
     CHECK((field.weight[i] == 0.5F || field.weight[i] < 0.5F));
   }
-}
-
-TEST_CASE("no normals are no failure") {
-  NormalField field;
-  field.push_back(0, 0, -1, 1);
-  CHECK(NoNormals().fill({}, {}, field) == NormalStatus::kOk);
-  CHECK(field.size() == 0);
 }

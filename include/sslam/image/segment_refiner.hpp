@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
 
 #include "sslam/core/inline_vector.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/line2.hpp"
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
@@ -18,7 +20,16 @@ struct SegmentRefineOptions {
   double min_support = 0.5;  // share of the samples that must show the edge
   double floor_sigma =
       0.2;  // of an endpoint across the segment, pixels: what the fit's own scatter does not show
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("reach", self.reach, Unit::kPixels, 1, 6, "searched on either side of a segment");
+    visit("min_support", self.min_support, Unit::kShare, 0, 1, "of the samples that must show the edge");
+    visit("floor_sigma", self.floor_sigma, Unit::kPixels, 0.001, 100,
+          "of an end across the segment: the least standard deviation");
+  }
 };
+static_assert(Described<SegmentRefineOptions>);
 
 struct RefinedSegment {
   Segment2<double> segment;
@@ -28,9 +39,9 @@ struct RefinedSegment {
 
 class SegmentRefiner {
  public:
-  // `image` is 8 bit grey. The edge must rise towards the left hand of start -> end (x right, y down), as
+  // The edge must rise towards the left hand of start -> end (x right, y down), as
   // the detector's segments do.
-  [[nodiscard]] static RefinedSegment refine(const cv::Mat& image, const Segment2<double>& rough,
+  [[nodiscard]] static RefinedSegment refine(ImageView<std::uint8_t> image, const Segment2<double>& rough,
                                              const SegmentRefineOptions& options) noexcept {
     RefinedSegment refined{rough, 1, false};
     if (!fit(sample(image, rough, options.reach), options, refined)) return {rough, 1, false};
@@ -50,20 +61,20 @@ class SegmentRefiner {
     double spacing = 1;
   };
 
-  [[nodiscard]] static float at(const cv::Mat& image, double x, double y) noexcept {
-    const int x0 = std::clamp(static_cast<int>(x), 0, image.cols - 2);
-    const int y0 = std::clamp(static_cast<int>(y), 0, image.rows - 2);
+  [[nodiscard]] static float at(ImageView<std::uint8_t> image, double x, double y) noexcept {
+    const int x0 = std::clamp(static_cast<int>(x), 0, image.width() - 2);
+    const int y0 = std::clamp(static_cast<int>(y), 0, image.height() - 2);
     const float fx = static_cast<float>(x) - static_cast<float>(x0),
                 fy = static_cast<float>(y) - static_cast<float>(y0);
-    const std::uint8_t* a = image.ptr<std::uint8_t>(y0) + x0;
-    const std::uint8_t* b = image.ptr<std::uint8_t>(y0 + 1) + x0;
+    const std::uint8_t* a = image.row(y0) + x0;
+    const std::uint8_t* b = image.row(y0 + 1) + x0;
     const float top = static_cast<float>(a[0]) + fx * static_cast<float>(a[1] - a[0]);
     const float bottom = static_cast<float>(b[0]) + fx * static_cast<float>(b[1] - b[0]);
     return top + fy * (bottom - top);
   }
 
   // The place of the steepest rise along the normal at evenly spaced places of the segment.
-  [[nodiscard]] static Samples sample(const cv::Mat& image, const Segment2<double>& s,
+  [[nodiscard]] static Samples sample(ImageView<std::uint8_t> image, const Segment2<double>& s,
                                       double max_offset) noexcept {
     Samples samples;
     const double length = s.length();

@@ -4,25 +4,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/line2.hpp"
 
 namespace sslam {
 
 struct SegmentMergeOptions {
-  double max_angle_deg = 2.5;  // between the directions
-  double max_offset = 1.5;     // of the shorter segment's endpoints from the longer one's line, pixels
-  double max_gap = 12;         // between the near endpoints, pixels ...
-  double max_gap_ratio = 0.3;  // ... and over the length of the longer one
+  double max_angle = radians(2.5);  // between the directions
+  double max_offset = 1.5;          // of the shorter segment's endpoints from the longer one's line, pixels
+  double max_gap = 12;              // between the near endpoints, pixels ...
+  double max_gap_ratio = 0.3;       // ... and over the length of the longer one
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_angle", self.max_angle, Unit::kDegrees, 0, 80, "between the directions of two pieces");
+    visit("max_offset", self.max_offset, Unit::kPixels, 0, kUnbounded,
+          "of the shorter piece from the longer one's line");
+    visit("max_gap", self.max_gap, Unit::kPixels, 0, kUnbounded, "between the near ends of two pieces");
+    visit("max_gap_ratio", self.max_gap_ratio, Unit::kNumber, 0, 100,
+          "of that gap over the length of the longer piece");
+  }
 };
+static_assert(Described<SegmentMergeOptions>);
 
 class SegmentMerger {
  public:
   // Merges in place until nothing fits any more; the result is in order of falling length. Directions count:
   // an edge from bright to dark never joins one from dark to bright.
   void merge(std::vector<Segment2<double>>& segments, const SegmentMergeOptions& options) {
-    const double max_tangent = std::tan(radians(options.max_angle_deg));
+    const double max_tangent = std::tan(options.max_angle);
     for (bool changed = true; changed;) {
       changed = false;
       rods_.clear();

@@ -9,9 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sslam/io/files/text.hpp"
-
-namespace sslam::cli {
+namespace sslam {
 
 // Letters to insert, to remove or to replace (Levenshtein, 1966).
 [[nodiscard]] inline std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -29,21 +27,26 @@ namespace sslam::cli {
   return row.back();
 }
 
-// "; did you mean 'seeds'?" where a known word is near, else all of them.
-[[nodiscard]] inline std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-  std::string all;
-  const std::string* nearest = nullptr;
+// The known word that is nearest, if it is near enough to be meant; empty otherwise.
+[[nodiscard]] inline std::string closest_word(std::string_view word, const std::vector<std::string>& known) {
+  std::string nearest;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    io::add_to_list(all, candidate);
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
-      nearest = &candidate;
-    }
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
   }
-  if (nearest != nullptr) return "; did you mean '" + *nearest + "'?";
+  return nearest;
+}
+
+// "; did you mean 'seeds'?" where a known word is near, else all of them.
+[[nodiscard]] inline std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  const std::string nearest = closest_word(word, known);
+  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
+  std::string all;
+  for (const std::string& candidate : known) all += (all.empty() ? "" : ", ") + candidate;
   return "; known: " + all;
 }
 
-}  // namespace sslam::cli
+}  // namespace sslam

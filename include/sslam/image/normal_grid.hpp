@@ -7,8 +7,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/core/types.hpp"
-#include "sslam/map/frame.hpp"
+#include "sslam/image/normal_field.hpp"
 
 namespace sslam {
 
@@ -26,15 +27,23 @@ struct NormalGrid {
 };
 
 struct PlanarMaskOptions {
-  double max_angle_deg = 8;  // between a normal and a neighbour that agrees with it
-  int min_neighbours = 4;    // of eight, that must agree
+  double max_angle = radians(8.0);  // between a normal and a neighbour that agrees with it
+  int min_neighbours = 4;           // of eight, that must agree
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_angle", self.max_angle, Unit::kDegrees, 0, 90,
+          "between a normal and a neighbour that agrees with it");
+    visit("min_neighbours", self.min_neighbours, Unit::kCount, 0, 8, "of eight, that must agree");
+  }
 };
+static_assert(Described<PlanarMaskOptions>);
 
 // Replaces `field` with the normals of the grid on planar neighbourhoods; each weight is scaled by the share
 // of the eight neighbours that agree.
 inline void keep_planar(const NormalGrid& grid, const PlanarMaskOptions& options, NormalField& field) {
   field.clear();
-  const auto min_cosine = static_cast<float>(std::cos(radians(options.max_angle_deg)));
+  const auto min_cosine = static_cast<float>(std::cos(options.max_angle));
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.columns; ++c) {
       const auto i = static_cast<std::size_t>(r * grid.columns + c);

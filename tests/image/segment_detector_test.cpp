@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/opencv/lines/segment_detector.hpp"
+#include "sslam/image/segment_detector.hpp"
 
 #include <cmath>
 
-#include "opencv/synthetic_image.hpp"
 #include "sslam/core/random.hpp"
 #include "support/catch.hpp"
+#include "support/drawn_image.hpp"
 
 using namespace sslam;
-using namespace sslam::test;
+using namespace sslam::testing;
 
 namespace {
 
 using Segments = std::vector<Segment2<double>>;
 
-Segments detect_segments(const cv::Mat& image, const SegmentDetectorOptions& options = {}) {
+Segments detect_segments(const DrawnImage& image, const SegmentDetectorOptions& options = {}) {
   SegmentDetector detector;
   detector.options = options;
   Segments segments;
-  detector.detect(image, segments);
+  detector.detect(image.view(), segments);
   return segments;
 }
 
 // The grey value steps by `step` along a line through the middle, whose direction is `angle`, radians.
-cv::Mat draw_step(double angle, double step) {
+DrawnImage draw_step(double angle, double step) {
   return draw({200, 160}, [&](double x, double y) {
     const double across = std::sin(angle) * (x - 100) - std::cos(angle) * (y - 80);
     return 100 + (across > 0 ? step : 0);
   });
 }
 
-cv::Mat draw_disc(double radius) {
+DrawnImage draw_disc(double radius) {
   return draw({200, 160},
               [&](double x, double y) { return std::hypot(x - 100, y - 80) < radius ? 180 : 60; });
 }
@@ -75,19 +75,17 @@ TEST_CASE("A curve is cut into what is straight of it") {
 
 TEST_CASE("Noise is no segment, and the same image gives the same segments") {
   Random random(1);
-  cv::Mat image(160, 200, CV_8U);
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(random.uniform(0.0, 255.0));
+  DrawnImage image({200, 160});
+  for (std::uint8_t& pixel : image.pixels) pixel = grey_level(random.uniform(0.0, 255.0));
   double longest = 0;
   for (const Segment2<double>& s : detect_segments(image)) longest = std::max(longest, s.length());
   CHECK(longest < 20);
   SegmentDetector detector;
   Segments first, second;
-  detector.detect(image, first);
-  detector.detect(draw_step(1, 60), second);  // leaves nothing behind
+  detector.detect(image.view(), first);
+  detector.detect(draw_step(1, 60).view(), second);  // leaves nothing behind
   second.clear();
-  detector.detect(image, second);
+  detector.detect(image.view(), second);
   REQUIRE(first.size() == second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     CHECK(first[i].start == second[i].start);
@@ -96,7 +94,7 @@ TEST_CASE("Noise is no segment, and the same image gives the same segments") {
 }
 
 TEST_CASE("An image of one grey, or of one row, has no segments") {
-  CHECK(detect_segments(cv::Mat(160, 200, CV_8U, cv::Scalar(90))).empty());
-  CHECK(detect_segments(cv::Mat(1, 200, CV_8U, cv::Scalar(90))).empty());
-  CHECK(detect_segments(cv::Mat(2, 2, CV_8U, cv::Scalar(90))).empty());
+  CHECK(detect_segments(DrawnImage({200, 160}, 90)).empty());
+  CHECK(detect_segments(DrawnImage({200, 1}, 90)).empty());
+  CHECK(detect_segments(DrawnImage({2, 2}, 90)).empty());
 }

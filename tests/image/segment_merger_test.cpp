@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/opencv/lines/segment_merger.hpp"
+#include "sslam/image/segment_merger.hpp"
 
 #include "support/catch.hpp"
 

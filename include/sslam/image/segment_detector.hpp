@@ -8,33 +8,45 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
+#include <numbers>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/geometry/line2.hpp"
-#include "sslam/opencv/lines/level_lines.hpp"
+#include "sslam/image/level_lines.hpp"
 
 namespace sslam {
 
 struct SegmentDetectorOptions {
-  double gradient_error = 1;    // bound on it, grey levels a pixel: lower finds fainter edges
-  double max_angle_deg = 22.5;  // between the level lines of a region and their mean
-  double min_density = 0.7;     // of a region in its rectangle: less is a curve, or two edges
+  double gradient_error = 1;         // bound on it, grey levels a pixel: lower finds fainter edges
+  double max_angle = radians(22.5);  // between the level lines of a region and their mean
+  double min_density = 0.7;          // of a region in its rectangle: less is a curve, or two edges
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("gradient_error", self.gradient_error, Unit::kNumber, 0.01, 255,
+          "grey levels a pixel: lower finds fainter edges");
+    visit("max_angle", self.max_angle, Unit::kDegrees, 1, 60,
+          "between the level lines of a region and their mean");
+    visit("min_density", self.min_density, Unit::kShare, 0, 1,
+          "of a region in its rectangle: less is a curve, or two edges");
+  }
 };
+static_assert(Described<SegmentDetectorOptions>);
 
 class SegmentDetector {
  public:
   SegmentDetectorOptions options;
 
-  // Adds the segments of `image` (8 bit, one channel) in its pixels. The brighter side lies to the left hand
+  // Adds the segments of the grey `image` in its pixels. The brighter side lies to the left hand
   // of start -> end (x right, y down).
-  void detect(const cv::Mat& image, std::vector<Segment2<double>>& segments) {
+  void detect(ImageView<std::uint8_t> image, std::vector<Segment2<double>>& segments) {
     // Below this slope the error of the gradient turns its direction by more than the tolerance.
-    const double tolerance = radians(options.max_angle_deg);
+    const double tolerance = options.max_angle;
     level_lines_.compute(image, static_cast<float>(options.gradient_error / std::sin(tolerance)));
     taken_.assign(level_lines_.size(), 1);
     for (const int place : level_lines_.places()) taken_[index(place)] = 0;
-    const std::size_t least = smallest_region(image.cols, image.rows);
+    const std::size_t least = smallest_region(image.size());
     for (const int seed : level_lines_.places()) {
       if (taken_[index(seed)]) continue;
       grow(seed, tolerance);
@@ -65,9 +77,9 @@ class SegmentDetector {
 
   // Of so many places, or more, whose level lines agree by chance, less than one region is expected in an
   // image of noise: width, height and place of a rectangle are (w h)^(5/2) choices, each with 11 tolerances.
-  [[nodiscard]] std::size_t smallest_region(int width, int height) const noexcept {
-    const double tests = 2.5 * (std::log10(width) + std::log10(height)) + std::log10(11.0);
-    return static_cast<std::size_t>(-tests / std::log10(options.max_angle_deg / 180));
+  [[nodiscard]] std::size_t smallest_region(ImageSize size) const noexcept {
+    const double tests = 2.5 * (std::log10(size.width) + std::log10(size.height)) + std::log10(11.0);
+    return static_cast<std::size_t>(-tests / std::log10(options.max_angle / std::numbers::pi));
   }
 
   // The region around the seed whose level lines lie within `tolerance`, radians, of the mean of those

@@ -5,23 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <opencv2/core.hpp>
+
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
-// Standard deviation of the noise of an 8 bit grey image, grey levels: the median absolute response of a mask
+// Standard deviation of the noise of a grey image, grey levels: the median absolute response of a mask
 // that is blind to constant and linear brightness (Immerkaer, 1996), over a ninth of the pixels.
-[[nodiscard]] inline double image_noise(const cv::Mat& image) noexcept {
+[[nodiscard]] inline double image_noise(ImageView<std::uint8_t> image) noexcept {
   constexpr int kStep = 3;
   std::array<int, 256> histogram{};
   int total = 0;
-  for (int y = 1; y + 1 < image.rows; y += kStep) {
-    const std::uint8_t* a = image.ptr<std::uint8_t>(y - 1);
-    const std::uint8_t* b = image.ptr<std::uint8_t>(y);
-    const std::uint8_t* c = image.ptr<std::uint8_t>(y + 1);
-    for (int x = 1; x + 1 < image.cols; x += kStep, ++total) {
+  for (int y = 1; y + 1 < image.height(); y += kStep) {
+    const std::uint8_t* a = image.row(y - 1);
+    const std::uint8_t* b = image.row(y);
+    const std::uint8_t* c = image.row(y + 1);
+    for (int x = 1; x + 1 < image.width(); x += kStep, ++total) {
       const int corners = a[x - 1] + a[x + 1] + c[x - 1] + c[x + 1],
                 sides = a[x] + c[x] + b[x - 1] + b[x + 1];
       ++histogram[static_cast<std::size_t>(std::min(std::abs(corners - 2 * sides + 4 * b[x]), 255))];

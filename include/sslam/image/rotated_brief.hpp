@@ -5,12 +5,13 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <opencv2/core.hpp>
 
 #include "sslam/core/descriptor.hpp"
-#include "sslam/opencv/points/brief_tests.hpp"
+#include "sslam/image/brief_tests.hpp"
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
@@ -26,10 +27,10 @@ class RotatedBrief {
   }
 
   // Direction from the corner to the centroid of intensity in the disc of kRadius, radians. The pixel must
-  // lie kRadius or more from the border of the 8 bit image.
-  [[nodiscard]] float orientation(const cv::Mat& image, int x, int y) const noexcept {
-    const auto stride = static_cast<std::ptrdiff_t>(image.step1());
-    const std::uint8_t* centre = image.ptr<std::uint8_t>(y) + x;
+  // lie kRadius or more from the border of the grey image.
+  [[nodiscard]] float orientation(ImageView<std::uint8_t> image, int x, int y) const noexcept {
+    const std::ptrdiff_t stride = image.stride();
+    const std::uint8_t* centre = image.row(y) + x;
     int mx = 0, my = 0;
     for (int u = -kRadius; u <= kRadius; ++u) mx += u * centre[u];
     for (int v = 1; v <= kRadius; ++v) {
@@ -46,10 +47,11 @@ class RotatedBrief {
     return std::atan2(static_cast<float>(my), static_cast<float>(mx));
   }
 
-  // `smooth` is the blurred image (8 bit); same border as orientation().
-  [[nodiscard]] Descriptor describe(const cv::Mat& smooth, int x, int y, float angle) const noexcept {
-    const auto stride = static_cast<std::ptrdiff_t>(smooth.step1());
-    const std::uint8_t* centre = smooth.ptr<std::uint8_t>(y) + x;
+  // `smooth` is the blurred image; same border as orientation().
+  [[nodiscard]] Descriptor describe(ImageView<std::uint8_t> smooth, int x, int y,
+                                    float angle) const noexcept {
+    const std::ptrdiff_t stride = smooth.stride();
+    const std::uint8_t* centre = smooth.row(y) + x;
     const auto& tests = turned_[turn_of(angle)];
     Descriptor descriptor;
     std::size_t i = 0;

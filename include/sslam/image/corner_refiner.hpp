@@ -5,10 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
 
-#include "sslam/opencv/points/corner_spreader.hpp"
+#include "sslam/image/corner_spreader.hpp"
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
@@ -18,8 +19,8 @@ class CornerRefiner {
 
   // Moves the corner to the peak, with the height of the peak as its score. Returns false, and leaves it
   // alone, where there is no peak within about a pixel. The corner must lie on a pixel that is kMargin or
-  // more from the border of the 8 bit image.
-  [[nodiscard]] static bool refine(const cv::Mat& image, Corner& corner) noexcept {
+  // more from the border of the grey image.
+  [[nodiscard]] static bool refine(ImageView<std::uint8_t> image, Corner& corner) noexcept {
     const Measure h = harris(image, static_cast<int>(corner.x), static_cast<int>(corner.y));
     std::size_t r = 1, c = 1;
     for (std::size_t i = 1; i + 1 < kSide; ++i)
@@ -54,12 +55,11 @@ class CornerRefiner {
     alignas(16) float xx[kWide][kRow], xy[kWide][kRow], yy[kWide][kRow];
   };
 
-  static void gradients(const cv::Mat& image, int x, int y, Products& g) noexcept {
-    const auto stride = static_cast<std::ptrdiff_t>(image.step1());
+  static void gradients(ImageView<std::uint8_t> image, int x, int y, Products& g) noexcept {
     for (std::size_t r = 0; r < kWide; ++r) {
-      const std::uint8_t* b = image.ptr<std::uint8_t>(y - 5 + static_cast<int>(r)) + x - 6;
-      const std::uint8_t* a = b - stride;
-      const std::uint8_t* d = b + stride;
+      const std::uint8_t* b = image.row(y - 5 + static_cast<int>(r)) + x - 6;
+      const std::uint8_t* a = b - image.stride();
+      const std::uint8_t* d = b + image.stride();
       for (std::size_t c = 0; c < kWide; ++c) {
         const int top = a[c] + 2 * a[c + 1] + a[c + 2], bottom = d[c] + 2 * d[c + 1] + d[c + 2];
         const int west = a[c] + 2 * b[c] + d[c], east = a[c + 2] + 2 * b[c + 2] + d[c + 2];
@@ -84,7 +84,7 @@ class CornerRefiner {
     }
   }
 
-  [[nodiscard]] static Measure harris(const cv::Mat& image, int x, int y) noexcept {
+  [[nodiscard]] static Measure harris(ImageView<std::uint8_t> image, int x, int y) noexcept {
     Products g;
     gradients(image, x, y, g);
     Measure xx, xy, yy;

@@ -7,9 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <opencv2/core.hpp>
 #include <span>
 #include <vector>
+
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
@@ -31,7 +32,7 @@ class CornerSpreader {
  public:
   // Reduces `corners`, which must lie inside an image of this size. The result is in order of cells and
   // falling score, and does not depend on the order of the input.
-  void spread(std::vector<Corner>& corners, cv::Size size, const SpreadOptions& options) {
+  void spread(std::vector<Corner>& corners, ImageSize size, const SpreadOptions& options) {
     sort_into_cells(corners, size, options.cell);
     thin_out(size, options);
     share(options.budget, corners);
@@ -46,7 +47,7 @@ class CornerSpreader {
     return std::span(sorted_).subspan(starts_[c], starts_[c + 1] - starts_[c]);
   }
 
-  void sort_into_cells(const std::vector<Corner>& corners, cv::Size size, int side) {
+  void sort_into_cells(const std::vector<Corner>& corners, ImageSize size, int side) {
     const int columns = (size.width + side - 1) / side, rows = (size.height + side - 1) / side;
     const auto cell_of = [&](const Corner& p) {
       return static_cast<std::size_t>(static_cast<int>(p.y) / side * columns + static_cast<int>(p.x) / side);
@@ -61,12 +62,10 @@ class CornerSpreader {
   }
 
   // Moves the corners that pass to the front of their cell and counts them.
-  void thin_out(cv::Size size, const SpreadOptions& options) {
+  void thin_out(ImageSize size, const SpreadOptions& options) {
     const int r = options.min_distance;
-    if (r > 0) {
-      taken_.create(size, CV_8U);
-      taken_.setTo(0);
-    }
+    const auto stride = static_cast<std::size_t>(size.width);
+    if (r > 0) taken_.assign(stride * static_cast<std::size_t>(size.height), 0);
     for (std::size_t c = 0; c < counts_.size(); ++c) {
       const std::span<Corner> corners = cell(c);
       const float threshold = threshold_of(corners, options);
@@ -74,12 +73,20 @@ class CornerSpreader {
       for (std::size_t i = 0; i < corners.size() && corners[i].score >= threshold; ++i) {
         const int x = static_cast<int>(corners[i].x), y = static_cast<int>(corners[i].y);
         if (r > 0) {
-          if (taken_.at<std::uint8_t>(y, x)) continue;
-          taken_(cv::Rect(x - r, y - r, 2 * r + 1, 2 * r + 1) & cv::Rect({}, size)).setTo(1);
+          if (taken_[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)]) continue;
+          take_around(x, y, r, size);
         }
         corners[counts_[c]++] = corners[i];
       }
     }
+  }
+
+  // Marks the square of half side r, as far as it lies in the image.
+  void take_around(int x, int y, int r, ImageSize size) {
+    const int left = std::max(x - r, 0), right = std::min(x + r, size.width - 1);
+    const int top = std::max(y - r, 0), bottom = std::min(y + r, size.height - 1);
+    for (int v = top; v <= bottom; ++v)
+      std::fill_n(taken_.begin() + std::ptrdiff_t{v} * size.width + left, right - left + 1, std::uint8_t{1});
   }
 
   [[nodiscard]] static float threshold_of(std::span<const Corner> corners,
@@ -119,7 +126,7 @@ class CornerSpreader {
   std::vector<std::size_t> starts_;  // of each cell in sorted_, and the end
   std::vector<std::size_t> counts_;  // corners of each cell that are still in
   std::vector<Corner> sorted_, next_;
-  cv::Mat taken_;
+  std::vector<std::uint8_t> taken_;  // pixels too near a corner that is in
 };
 
 }  // namespace sslam

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <vector>
 
-#include "sslam/core/types.hpp"
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
@@ -79,23 +79,20 @@ class InverseDepthBlocks {
  public:
   static constexpr int kBlock = 8;  // side, pixels
 
-  // `depth` is 16 bit with `factor` to the metre, or float in metres. A block is planar when its pixels lie
-  // within `tolerance` (root mean square, 1 / metres) of a plane.
-  void build(const cv::Mat& depth, double factor, double min_depth, double max_depth, double tolerance) {
-    columns_ = depth.cols / kBlock;
-    rows_ = depth.rows / kBlock;
+  // `depth` has `factor` to the metre. A block is planar when its pixels lie within `tolerance` (root mean
+  // square, 1 / metres) of a plane.
+  template <class Pixel>
+  void build(ImageView<Pixel> depth, double factor, double min_depth, double max_depth, double tolerance) {
+    columns_ = depth.width() / kBlock;
+    rows_ = depth.height() / kBlock;
     blocks_.resize(static_cast<std::size_t>(columns_ * rows_));
-    const bool raw = depth.depth() == CV_16U;
-    const auto scale = static_cast<float>(raw ? factor : 1.0);
+    const auto scale = static_cast<float>(factor);
     const auto low = static_cast<float>(min_depth) * scale, high = static_cast<float>(max_depth) * scale;
     for (int r = 0; r < rows_; ++r) {
       for (int c = 0; c < columns_; ++c) {
         DepthBlock& block = blocks_[static_cast<std::size_t>(r * columns_ + c)];
         block = {};
-        if (raw)
-          sum<std::uint16_t>(depth, r, c, scale, low, high, block);
-        else
-          sum<float>(depth, r, c, scale, low, high, block);
+        sum(depth, r, c, scale, low, high, block);
         finish(block, static_cast<float>(tolerance));
       }
     }
@@ -132,14 +129,14 @@ class InverseDepthBlocks {
 
  private:
   // Column by column, so that the compiler may use vector registers without reordering a sum.
-  template <class T>
-  static void sum(const cv::Mat& depth, int r, int c, float scale, float low, float high,
+  template <class Pixel>
+  static void sum(ImageView<Pixel> depth, int r, int c, float scale, float low, float high,
                   DepthBlock& block) noexcept {
     constexpr auto kSide = static_cast<std::size_t>(kBlock);
     constexpr float kMiddle = (kBlock - 1) / 2.0F;
     float n[kSide] = {}, v[kSide] = {}, vv[kSide] = {}, w[kSide] = {}, vw[kSide] = {}, ww[kSide] = {};
     for (std::size_t row = 0; row < kSide; ++row) {
-      const T* d = depth.ptr<T>(r * kBlock + static_cast<int>(row)) + c * kBlock;
+      const Pixel* d = depth.row(r * kBlock + static_cast<int>(row)) + c * kBlock;
       const float y = static_cast<float>(row) - kMiddle;
       for (std::size_t u = 0; u < kSide; ++u) {
         const auto raw = static_cast<float>(d[u]);

@@ -9,29 +9,29 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "sslam/core/types.hpp"
+#include "sslam/image/image_view.hpp"
 
 namespace sslam {
 
 class LevelLines {
  public:
-  // A place is the corner that four pixels share. `image` is 8 bit grey; changes of less than `min_slope`
-  // grey levels a pixel have no level line.
-  void compute(const cv::Mat& image, float min_slope) {
-    stride_ = image.cols;
+  // A place is the corner that four pixels share. Changes of less than `min_slope` grey levels a pixel have
+  // no level line.
+  void compute(ImageView<std::uint8_t> image, float min_slope) {
+    stride_ = image.width();
     const auto stride = static_cast<std::size_t>(stride_);
-    const std::size_t size = stride * static_cast<std::size_t>(image.rows + 1) + 1;
+    const std::size_t size = stride * static_cast<std::size_t>(image.height() + 1) + 1;
     direction_.resize(size);
     slope_.assign(size, 0);
     float steepest = 0;
-    for (int y = 0; y + 1 < image.rows; ++y) {
-      const std::uint8_t* upper = image.ptr<std::uint8_t>(y);
-      const std::uint8_t* lower = image.ptr<std::uint8_t>(y + 1);
+    for (int y = 0; y + 1 < image.height(); ++y) {
+      const std::uint8_t* upper = image.row(y);
+      const std::uint8_t* lower = image.row(y + 1);
       const std::size_t row = stride * static_cast<std::size_t>(y + 1);
-      for (int x = 0; x + 1 < image.cols; ++x) {
+      for (int x = 0; x + 1 < image.width(); ++x) {
         const int falling = lower[x + 1] - upper[x], rising = upper[x + 1] - lower[x];
         const float dx = static_cast<float>(falling + rising) / 2,
                     dy = static_cast<float>(falling - rising) / 2;

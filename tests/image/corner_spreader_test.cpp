@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/opencv/points/corner_spreader.hpp"
+#include "sslam/image/corner_spreader.hpp"
 
 #include <algorithm>
 #include <array>
