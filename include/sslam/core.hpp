@@ -148,6 +148,7 @@
 #include "sslam/track/matching/descriptor_buckets.hpp"
 #include "sslam/track/matching/match_lines.hpp"
 #include "sslam/track/matching/match_points.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 #include "sslam/track/pipeline.hpp"
 #include "sslam/track/pose_tracking.hpp"
 #include "sslam/track/presets.hpp"
@@ -160,4 +161,5 @@
 #include "sslam/track/worlds/backfill.hpp"
 #include "sslam/track/worlds/map_trial.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
+#include "sslam/track/worlds/waiting_frames.hpp"
 #include "sslam/track/worlds/world.hpp"

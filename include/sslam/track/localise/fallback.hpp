@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sslam/track/localise/translation.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -52,7 +53,7 @@ class FeatureFallback {
   void match_keyframe_points(const Keyframe<S>& keyframe, TrackedFrame<S>& frame) {
     frame.forget_matches();
     // Every feature of the frame is a candidate: after a loss nothing is known about where to look.
-    match_points_mutually<S>(
+    matcher_.match(
         keyframe.frame.points, frame.frame.points, descriptor_match,
         [&](std::int32_t i, auto visit) {
           if (keyframe.point_landmarks[Map<S>::index(i)] == kNone) return;
@@ -81,6 +82,7 @@ class FeatureFallback {
 
   Correspondences<S> matches_;
   RecentLandmarks<S> recent_;
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
 
