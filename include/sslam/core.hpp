@@ -154,6 +154,7 @@
 #include "sslam/track/matching/descriptor_buckets.hpp"
 #include "sslam/track/matching/match_lines.hpp"
 #include "sslam/track/matching/match_points.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 #include "sslam/track/matching/pose_acceptance.hpp"
 #include "sslam/track/parameters.hpp"
 #include "sslam/track/pipeline.hpp"
@@ -169,4 +170,5 @@
 #include "sslam/track/worlds/backfill.hpp"
 #include "sslam/track/worlds/map_trial.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
+#include "sslam/track/worlds/waiting_frames.hpp"
 #include "sslam/track/worlds/world.hpp"

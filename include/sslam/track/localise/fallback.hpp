@@ -5,6 +5,7 @@
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/track/localise/translation.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -68,7 +69,7 @@ class FeatureFallback {
   void match_keyframe_points(const Keyframe<S>& keyframe, TrackedFrame<S>& frame) {
     frame.forget_matches();
     // Every feature of the frame is a candidate: after a loss nothing is known about where to look.
-    match_points_mutually<S>(
+    matcher_.match(
         keyframe.frame.points, frame.frame.points, options.descriptor_match,
         [&](std::int32_t i, auto visit) {
           if (keyframe.point_landmarks[Map<S>::index(i)] == kNone) return;
@@ -97,6 +98,7 @@ class FeatureFallback {
 
   Correspondences<S> matches_;
   RecentLandmarks<S> recent_;
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
 static_assert(FallbackStage<FeatureFallback<double>, double>);

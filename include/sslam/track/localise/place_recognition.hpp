@@ -49,8 +49,10 @@ class PlaceRecognition {
     order_.clear();
     for (std::size_t k = 0; k < votes_.size(); ++k)
       if (votes_[k] >= options.min_votes) order_.push_back(static_cast<KeyframeId>(k));
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](KeyframeId a, KeyframeId b) { return votes_[map.index(a)] > votes_[map.index(b)]; });
+    std::sort(order_.begin(), order_.end(), [&](KeyframeId a, KeyframeId b) {
+      const int va = votes_[map.index(a)], vb = votes_[map.index(b)];
+      return va != vb ? va > vb : a < b;
+    });
     const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max(options.most, 0)));
     ranked.insert(ranked.end(), order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count));
   }

@@ -16,7 +16,7 @@
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/translation.hpp"
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/matching/match_points.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -92,7 +92,7 @@ class DecoupledInitialisation {
   void follow(const TrackedFrame<S>& frame) {
     const SO3<S> turn = frame.cam_from_world.rotation * last_rotation_.inverse();
     const Pinhole<S>& pinhole = frame.frame.pinhole;
-    match_points_mutually<S>(
+    matcher_.match(
         reference_.frame.points, frame.frame.points, options.match,
         [&](std::int32_t i, auto visit) {
           const Vec3<S> ray = turn * pinhole.unproject(last_pixels_[Map<S>::index(i)]);
@@ -224,6 +224,7 @@ class DecoupledInitialisation {
   std::vector<Vec2<S>> last_pixels_;  // where each feature of the reference was last seen
   SO3<S> last_rotation_;
   std::optional<RotationObservation<S>> prior_;  // frame from reference
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
   std::vector<BearingMatch<S>> bearings_;
   std::vector<std::uint8_t> inliers_;

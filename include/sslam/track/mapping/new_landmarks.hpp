@@ -10,6 +10,7 @@
 #include "sslam/solver/triangulation/triangulate_line.hpp"
 #include "sslam/solver/triangulation/triangulate_point.hpp"
 #include "sslam/track/matching/match_lines.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -79,7 +80,7 @@ class NewLandmarks {
     const Keyframe<S>& b = map.keyframes[map.index(id_b)];
     grid_.build(b.frame.points, b.frame.width, b.frame.height);
     const Mat3<S> essential = hat(b_from_a_.translation) * b_from_a_.rotation.matrix();
-    match_points_mutually<S>(
+    matcher_.match(
         a.frame.points, b.frame.points, options.points,
         [&](std::int32_t i, auto visit) { visit_epipolar(a, b, essential, median_depth, i, visit); }, pairs_);
     int added = 0;
@@ -141,13 +142,18 @@ class NewLandmarks {
     const Keyframe<S>& a = map.keyframes[map.index(id_a)];
     const Keyframe<S>& b = map.keyframes[map.index(id_b)];
     const SO3<S> turn = b_from_a_.rotation;
-    match_lines_mutually<S>(
+    const auto may_match = [&](std::size_t i, std::size_t j) {
+      if (b.line_landmarks[j] != kNone) return false;
+      if (a.line_axes[i] != kNone && b.line_axes[j] != kNone && a.line_axes[i] != b.line_axes[j])
+        return false;
+      return similar_direction(a, a.frame.lines[i].segment, b, b.frame.lines[j].segment, turn);
+    };
+    matcher_.match(
         a.frame.lines, b.frame.lines, options.lines,
-        [&](std::size_t i, std::size_t j) {
-          if (a.line_landmarks[i] != kNone || b.line_landmarks[j] != kNone) return false;
-          if (a.line_axes[i] != kNone && b.line_axes[j] != kNone && a.line_axes[i] != b.line_axes[j])
-            return false;
-          return similar_direction(a, a.frame.lines[i].segment, b, b.frame.lines[j].segment, turn);
+        [&](std::int32_t i, auto visit) {
+          if (a.line_landmarks[map.index(i)] != kNone) return;
+          for (std::size_t j = 0; j < b.frame.lines.size(); ++j)
+            if (may_match(map.index(i), j)) visit(static_cast<std::int32_t>(j));
         },
         pairs_);
     int added = 0;
@@ -202,6 +208,7 @@ class NewLandmarks {
 
   SE3<S> b_from_a_;
   FeatureGrid<S> grid_;
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
 
