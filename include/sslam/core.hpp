@@ -147,3 +147,4 @@
 #include "sslam/track/worlds/map_trial.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 #include "sslam/track/worlds/world.hpp"
+#include "sslam/version.hpp"
