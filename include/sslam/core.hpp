@@ -172,3 +172,4 @@
 #include "sslam/track/worlds/trajectory_log.hpp"
 #include "sslam/track/worlds/waiting_frames.hpp"
 #include "sslam/track/worlds/world.hpp"
+#include "sslam/version.hpp"
