@@ -63,18 +63,7 @@ class DecoupledInitialisation {
 
   // Tries to make a first map from the reference frame and this one. On success (kFine) the map holds both as
   // keyframes with their points, and the frame has its pose and matches.
-  [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map) {
-    if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
-      return Reason::kTooFewFeatures;
-    if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
-    follow(frame);
-    if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
-    SO3<S> R_10;
-    Vec3<S> t_10;
-    const Reason reason = relative_pose(frame, R_10, t_10);
-    if (reason != Reason::kFine) return reason;
-    return build(frame, R_10, t_10, map);
-  }
+  [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map);
 
   void reset() { has_reference_ = false; }
 
@@ -231,6 +220,20 @@ class DecoupledInitialisation {
   std::vector<Seed> seeds_;
   std::vector<S> depths_;
 };
+
+template <Scalar S>
+Reason DecoupledInitialisation<S>::start(TrackedFrame<S>& frame, Map<S>& map) {
+  if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
+    return Reason::kTooFewFeatures;
+  if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
+  follow(frame);
+  if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
+  SO3<S> R_10;
+  Vec3<S> t_10;
+  const Reason reason = relative_pose(frame, R_10, t_10);
+  if (reason != Reason::kFine) return reason;
+  return build(frame, R_10, t_10, map);
+}
 static_assert(InitialisationStage<DecoupledInitialisation<double>, double>);
 
 }  // namespace sslam

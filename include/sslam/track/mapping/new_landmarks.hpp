@@ -60,19 +60,7 @@ class NewLandmarks {
   NewLandmarkOptions<S> options;
 
   // Returns how many landmarks were added.
-  int create(Map<S>& map, KeyframeId id, S median_depth) {
-    int added = 0;
-    const auto neighbours = map.keyframes[map.index(id)].neighbours;
-    for (std::size_t i = 0; i < neighbours.size() && i < options.max_neighbours; ++i) {
-      const Keyframe<S>& a = map.keyframes[map.index(id)];
-      const Keyframe<S>& b = map.keyframes[map.index(neighbours[i].keyframe)];
-      b_from_a_ = b.cam_from_world * a.cam_from_world.inverse();
-      if (b_from_a_.translation.norm() < options.min_baseline * median_depth) continue;
-      if (options.use_points) added += create_points(map, id, neighbours[i].keyframe, median_depth);
-      if (options.use_lines) added += create_lines(map, id, neighbours[i].keyframe, median_depth);
-    }
-    return added;
-  }
+  int create(Map<S>& map, KeyframeId id, S median_depth);
 
  private:
   int create_points(Map<S>& map, KeyframeId id_a, KeyframeId id_b, S median_depth) {
@@ -211,5 +199,20 @@ class NewLandmarks {
   MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
+
+template <Scalar S>
+int NewLandmarks<S>::create(Map<S>& map, KeyframeId id, S median_depth) {
+  int added = 0;
+  const auto neighbours = map.keyframes[map.index(id)].neighbours;
+  for (std::size_t i = 0; i < neighbours.size() && i < options.max_neighbours; ++i) {
+    const Keyframe<S>& a = map.keyframes[map.index(id)];
+    const Keyframe<S>& b = map.keyframes[map.index(neighbours[i].keyframe)];
+    b_from_a_ = b.cam_from_world * a.cam_from_world.inverse();
+    if (b_from_a_.translation.norm() < options.min_baseline * median_depth) continue;
+    if (options.use_points) added += create_points(map, id, neighbours[i].keyframe, median_depth);
+    if (options.use_lines) added += create_lines(map, id, neighbours[i].keyframe, median_depth);
+  }
+  return added;
+}
 
 }  // namespace sslam
