@@ -15,7 +15,9 @@ ParameterTable structure_parameters() {
 }
 
 ParameterTable lines_parameters() {
-  return parameters_of(make_pipeline<Pipeline>(false));
+  Pipeline pipeline;
+  pipeline.mapping.creation.options.use_points = false;
+  return parameters_of(pipeline);
 }
 
 RunOutcome run_structure(FrameStream& stream, const TrackSettings& settings, Progress& progress) {

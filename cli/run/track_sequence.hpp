@@ -102,18 +102,12 @@ ParameterTable parameters_of(const P& pipeline) {
   return table;
 }
 
-template <class P>
-P make_pipeline(bool new_points = true) {
-  P pipeline;
-  pipeline.mapping.creation.options.use_points = new_points;
-  return pipeline;
-}
-
 // The same with a pipeline of its own. Without `new_points` there are no points but those that start the map.
 template <class P>
 RunOutcome run_pipeline(FrameStream& stream, const TrackSettings& settings, Progress& progress,
                         bool new_points = true) {
-  P pipeline = make_pipeline<P>(new_points);
+  P pipeline;
+  pipeline.mapping.creation.options.use_points = new_points;
   return track_sequence(pipeline, stream, settings, progress);
 }
 

@@ -22,9 +22,9 @@ struct RefinementOptions {
     visit_within("", self.match, visit);
     visit_within("", self.acceptance, visit);
     visit_within("solver.", self.solver, visit);
-    visit("min_inliers_turned", self.min_inliers_turned, Unit::kCount, 3, 1e+06,
+    visit("min_inliers_turned", self.min_inliers_turned, Unit::kCount, 3, 1e6,
           "min_inliers where the Manhattan frame gives the rotation");
-    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e+06, "of the local map");
+    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e6, "of the local map");
   }
 };
 static_assert(Described<RefinementOptions<double>>);
