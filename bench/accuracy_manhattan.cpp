@@ -131,8 +131,8 @@ void run_dataset(const Settings& settings, Source source, Runner& runner) {
   const auto known =
       settings.camera.empty() ? io::known_camera_for(dataset) : io::find_known_camera(settings.camera);
   if (!known)
-    throw io::Error(settings.folder.string() +
-                    ": no built-in calibration; name one with --camera: " + io::known_camera_names());
+    throw Error(settings.folder.string() +
+                ": no built-in calibration; name one with --camera: " + io::known_camera_names());
   ImageFrontend<> frontend;
   frontend.camera = known->camera;
   Frame<double> frame;

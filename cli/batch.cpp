@@ -93,9 +93,9 @@ void run_suite(const BatchOptions& options) {
     throw Stop{ExitCode::kInterrupted};
   }
   if (outcome.broken > 0)
-    throw io::Error(std::to_string(outcome.broken) + " of " + std::to_string(outcome.done + outcome.kept) +
-                    " runs failed unexpectedly; " + (settings.folder / "tables.md").string() +
-                    " says why, and their folders hold " + kLogFile);
+    throw Error(std::to_string(outcome.broken) + " of " + std::to_string(outcome.done + outcome.kept) +
+                " runs failed unexpectedly; " + (settings.folder / "tables.md").string() +
+                " says why, and their folders hold " + kLogFile);
 }
 
 void run_merge(const MergeOptions& options) {
@@ -106,8 +106,8 @@ void run_merge(const MergeOptions& options) {
   write_plan(out, plan);
   const std::size_t missing = write_results(out, {options.against.begin(), options.against.end()});
   if (missing > 0)
-    throw io::Error(std::to_string(missing) + " of " + std::to_string(plan.runs.size()) +
-                    " runs are in none of these folders; name all shards, or run the missing ones");
+    throw Error(std::to_string(missing) + " of " + std::to_string(plan.runs.size()) +
+                " runs are in none of these folders; name all shards, or run the missing ones");
 }
 
 void add_merge_command(CLI::App& batch) {

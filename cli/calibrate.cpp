@@ -95,14 +95,14 @@ void run_calibrate(const CalibrateSettings& settings) {
   const BoardViews found = find_views(dataset, board, settings.verbosity);
   print_warnings(found.unreadable);
   if (found.views.size() < kLeastViews)
-    throw io::Error(settings.images + ": " + std::to_string(found.views.size()) +
-                    " different views of the board, of " + std::to_string(found.searched) +
-                    " images; needs at least " + std::to_string(kLeastViews) + ", better 15 or more");
+    throw Error(settings.images + ": " + std::to_string(found.views.size()) +
+                " different views of the board, of " + std::to_string(found.searched) +
+                " images; needs at least " + std::to_string(kLeastViews) + ", better 15 or more");
   Calibration calibration;
   try {
     calibration = calibrate(found.views, found.size, settings.k3);
-  } catch (const io::Error& error) {
-    throw io::Error(settings.images + ": " + error.what());
+  } catch (const Error& error) {
+    throw Error(settings.images + ": " + error.what());
   }
   for (std::size_t v = 0; v < calibration.left_out.size(); ++v)
     print_note(cv::format("left out %s: %.2f pixels, the others %.2f", calibration.left_out[v].name.c_str(),

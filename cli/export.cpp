@@ -28,8 +28,8 @@ struct ExportSettings {
 // What is wrong with `file`, where anything is; else that the run has tracked nothing.
 [[noreturn]] void refuse(const ExportSettings& settings, const RunFolder& run, const std::string& file) {
   for (const std::string& problem : run.problems)
-    if (problem.find(file) != std::string::npos) throw io::Error(problem);
-  throw io::Error(settings.run + ": the run tracked no frame, so there is nothing to export");
+    if (problem.find(file) != std::string::npos) throw Error(problem);
+  throw Error(settings.run + ": the run tracked no frame, so there is nothing to export");
 }
 
 std::string export_trajectory(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {

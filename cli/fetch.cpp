@@ -37,7 +37,7 @@ const PublicSequence& find_sequence(const std::string& name) {
   const auto* const found = std::find_if(kPublicSequences.begin(), kPublicSequences.end(),
                                          [&](const PublicSequence& known) { return known.name == name; });
   if (found == kPublicSequences.end())
-    throw io::Error("'" + name + "' is not a sequence that can be fetched; known: " + sequence_names());
+    throw Error("'" + name + "' is not a sequence that can be fetched; known: " + sequence_names());
   return *found;
 }
 
@@ -47,17 +47,17 @@ void list_sequences() {
                 std::string(known.archive).c_str(), std::string(known.terms).c_str());
 }
 
-// Throws io::Error when it is no dataset with ground truth.
+// Throws Error when it is no dataset with ground truth.
 io::Dataset open_complete(const fs::path& folder) {
   io::Dataset dataset = io::open_dataset(folder);
-  if (dataset.ground_truth.empty()) throw io::Error(folder.string() + ": has no ground truth");
+  if (dataset.ground_truth.empty()) throw Error(folder.string() + ": has no ground truth");
   return dataset;
 }
 
 void check_unpacked(const fs::path& folder, const fs::path& archive) {
   try {
     (void)open_complete(folder);
-  } catch (const io::Error& error) {
+  } catch (const Error& error) {
     throw BadArchive(archive.string() + ": does not hold the sequence (" + error.what() + ")");
   }
 }
@@ -82,7 +82,7 @@ void fetch(const FetchSettings& settings, const PublicSequence& sequence) {
     } catch (const BadArchive& error) {
       fs::remove_all(unpacked, ignored);
       fs::remove(archive, ignored);
-      throw io::Error(std::string(error.what()) + "; removed, fetch it again");
+      throw Error(std::string(error.what()) + "; removed, fetch it again");
     }
     fs::rename(unpacked, folder);
     if (!settings.keep_archive) fs::remove(archive, ignored);

@@ -37,7 +37,7 @@ struct NormalsSettings {
 OnnxNormals open_model(const std::string& wanted) {
   OnnxNormals model(wanted.empty() ? shipped_model("name one with --model FILE") : fs::path(wanted));
   if (model.manifest().kind != NetworkOutput::kNormals)
-    throw io::Error(model.manifest().file.string() + ": output.kind: sslam normals wants normals, not depth");
+    throw Error(model.manifest().file.string() + ": output.kind: sslam normals expected normals, not depth");
   return model;
 }
 
@@ -51,7 +51,7 @@ void prepare_folder(const fs::path& out, const io::Dataset& dataset, const Norma
   std::error_code ignored;
   for (const io::FrameEntry& frame : dataset.frames) {
     if (fs::equivalent(out, folder_of(frame.image), ignored))
-      throw io::Error("--out " + out.string() + ": the images themselves are there; choose another folder");
+      throw Error("--out " + out.string() + ": the images themselves are there; choose another folder");
   }
   io::prepare_output_folder(out);
   write_normal_encoding(out, manifest.plane_sigma_deg);
@@ -66,7 +66,7 @@ class NormalWriter {
   NormalWriter(OnnxNormals model, ImageCamera camera, fs::path out)
       : model_(std::move(model)), camera_(std::move(camera)), out_(std::move(out)) {}
 
-  // False, with the reason in `why`, when the image has no normals. Throws io::Error when they cannot be
+  // False, with the reason in `why`, when the image has no normals. Throws Error when they cannot be
   // written.
   [[nodiscard]] bool write(const cv::Mat& image, const std::string& stem, std::string& why) {
     if (!stems_.insert(stem).second) {
@@ -152,9 +152,9 @@ void run_normals(const NormalsSettings& settings) {
   }
   progress.finish();
   const bool none = writer.planar_shares.empty(), interrupted = Interrupt::asked();
-  if (none && failures.size() == 1 && !interrupted) throw io::Error(failures.front());
+  if (none && failures.size() == 1 && !interrupted) throw Error(failures.front());
   print_warnings(failures);
-  if (none && !interrupted) throw io::Error(settings.images + ": no image gave normals");
+  if (none && !interrupted) throw Error(settings.images + ": no image gave normals");
   print_summary(writer, manifest.model, settings.out, dataset.frames.size());
   if (interrupted) {
     print_warning("interrupted; what had been computed was written");

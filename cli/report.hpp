@@ -17,11 +17,11 @@ inline constexpr std::size_t kMaxViews = 1000;  // that a run keeps for its repo
 [[nodiscard]] std::string report_html(const nlohmann::ordered_json& data,
                                       const std::vector<std::string>& views);
 
-// The page of a run, from its folder; warns about files that cannot be used. Throws io::Error when there is
+// The page of a run, from its folder; warns about files that cannot be used. Throws Error when there is
 // no run.
 [[nodiscard]] std::string report_of(const std::filesystem::path& folder);
 
-// Into the run's folder. Throws io::Error when it cannot be written.
+// Into the run's folder. Throws Error when it cannot be written.
 void write_report(const std::filesystem::path& folder, const std::string& page);
 
 }  // namespace sslam::cli

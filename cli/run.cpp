@@ -12,8 +12,8 @@
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
 #include "cli/results/run_report.hpp"
-#include "cli/run/presets.hpp"
 #include "cli/run/run_check.hpp"
+#include "cli/run/track_sequence.hpp"
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
@@ -23,61 +23,68 @@
 #include "cli/view/live_view.hpp"
 #include "cli/view/view_options.hpp"
 #include "sslam/io/maps/map_file.hpp"
-#include "sslam/opencv/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
 
 // Why the last frame has no pose, if it has none.
 std::string last_reason_of(const RunOutcome& outcome) {
-  return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().result.reason);
+  return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().reason);
 }
+
+class ProgressObserver : public Observer {
+ public:
+  explicit ProgressObserver(Progress& progress) : progress_(progress) {}
+  void frame_tracked(const FrameEvent& event) override { progress_.show(event.report); }
+
+ private:
+  Progress& progress_;
+};
 
 }  // namespace
 
 void run(RunSettings settings) {
-  const Preset& preset = find_preset(settings.preset);
+  const Preset& preset = choose_preset(settings.preset);
   check_live(settings, preset);
   if (settings.normals.empty()) {
     const DefaultNormals chosen = default_normals(find_shipped_model(), preset.use_normals);
     settings.normals = chosen.source;
     if (!chosen.note.empty()) print_note(chosen.note);
   }
-  TrackSettings track;
-  track.seed = settings.seed;
-  (void)set_parameters(preset, settings.set);  // refused before anything is read
-  if (!settings.map.empty()) track.map = io::load_map(settings.map);
+  Settings wanted;
+  wanted.preset = settings.preset;
+  wanted.parameters = check_overrides(preset, settings.set);
+  Map<double> known;
+  if (!settings.map.empty()) known = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
-
-  StreamSettings stream_settings;
-  stream_settings.frontend.camera = camera.camera;
-  stream_settings.depth_factor = camera.depth_factor;
-  stream_settings.frontend.normals = choose_normals(settings.normals);
-  track.parameters = set_parameters(preset, settings.set, stream_settings.frontend);
-  write_frontend_parameters(track.parameters, stream_settings.frontend);
+  wanted.camera = camera.camera;
+  wanted.depth_factor = camera.depth_factor;
+  wanted.normals = choose_normals(settings.normals);
+  wanted.seed = settings.seed;
+  wanted.live = settings.live;
+  wanted.keep_pictures = settings.report || settings.view || !settings.video.empty();
   io::prepare_output_folder(settings.out);
-  if (settings.live) stream_settings.pace = dataset.seconds_per_stamp;
-  stream_settings.use_points = preset.use_points;
-  stream_settings.use_lines = preset.use_lines;
-  stream_settings.keep_pictures = settings.report || settings.view || !settings.video.empty();
+
+  System system(std::move(wanted));
+  const std::size_t frames = dataset.frames.size(), known_keyframes = known.keyframes.size();
+  if (!known.empty()) system.resume(std::move(known));
+  RunRecorder recorder(camera.camera, frames, settings.report ? (frames + kMaxViews - 1) / kMaxViews : 0);
+  system.add_observer(recorder);
   std::optional<OverlayVideo> video;
-  if (!settings.video.empty()) {
-    video.emplace(settings.video, dataset, camera.camera);
-    track.watchers.emplace_back(
-        [&video](const WatchedFrame& seen) { video->add(seen.record, seen.view, seen.frame); });
-  }
+  if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, camera.camera));
   const RunContext context{settings, dataset, camera.source, camera.camera};
   std::optional<LiveView> live;
-  if (settings.view) {
-    live.emplace(context);
-    track.watchers.emplace_back([&live](const WatchedFrame& seen) { live->add(seen); });
-  }
-  FrameStream stream(dataset, std::move(stream_settings));
-  if (settings.report) track.view_stride = (stream.size() + kMaxViews - 1) / kMaxViews;
-  Progress progress(stream.size(), settings.verbosity, "run");
-  RunOutcome outcome = (settings.live ? preset.run_live : preset.run)(stream, track, progress);
+  if (settings.view) system.add_observer(live.emplace(context).observer());
+  Progress progress(frames, settings.verbosity, "run");
+  ProgressObserver progress_observer(progress);
+  system.add_observer(progress_observer);
+  FrameStream stream(dataset, system, settings.live ? dataset.seconds_per_stamp : 0);
+  track_sequence(system, stream, recorder, known_keyframes);
+  progress.finish();
+
+  RunOutcome& outcome = recorder.outcome;
   print_warnings(outcome.warnings);
   write_run(context, outcome);
   const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();
@@ -112,7 +119,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   std::string presets = "What the pipeline is made of:";
   std::vector<std::string> names;
-  for (const Preset& preset : kPresets) {
+  for (const Preset& preset : all_presets()) {
     presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
     names.emplace_back(preset.name);
   }

@@ -36,7 +36,7 @@ struct RunSettings {
   Verbosity verbosity = Verbosity::kNormal;
 };
 
-// Tracks the dataset and writes everything into settings.out. Throws io::Error; Stop when interrupted.
+// Tracks the dataset and writes everything into settings.out. Throws Error; Stop when interrupted.
 void run(RunSettings settings);
 
 }  // namespace sslam::cli

@@ -23,7 +23,7 @@
 #include "cli/shell/worker_threads.hpp"
 #include "cli/synth/synth_files.hpp"
 #include "cli/synth/synth_names.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/synth/render.hpp"
 #include "sslam/synth/shutter.hpp"
@@ -163,7 +163,7 @@ SynthReport synthesise(const SynthSettings& asked) {
   const bool plain =
       settings.house.world == synth::World::kManhattan || settings.house.world == synth::World::kTurned;
   if (settings.house.rooms == 3 && !(plain && settings.house.path == synth::PathKind::kLoop)) {
-    throw io::Error(
+    throw Error(
         "three rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
   }
   if (settings.focal <= 0.0) settings.focal = 0.75 * settings.width;

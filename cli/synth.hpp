@@ -33,7 +33,7 @@ struct SynthReport {
   bool interrupted = false;
 };
 
-// Throws io::Error, in one line, when the folder cannot be written or holds another data set.
+// Throws Error, in one line, when the folder cannot be written or holds another data set.
 SynthReport synthesise(const SynthSettings& settings);
 
 }  // namespace sslam::cli

@@ -40,7 +40,7 @@ std::string map_page(const fs::path& file) {
 SharedText page_of(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored))
-    throw io::Error(path.string() + ": no such file or folder; wants the folder of a run or a map.sslam");
+    throw Error(path.string() + ": no such file or folder; expected the folder of a run or a map.sslam");
   return std::make_shared<const std::string>(fs::is_directory(path, ignored) ? report_of(path)
                                                                              : map_page(path));
 }

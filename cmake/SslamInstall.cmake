@@ -1,13 +1,14 @@
-# Installs the library as a package with components: find_package(sslam COMPONENTS core opencv ceres io live synth).
+# Installs the library as a package with components: find_package(sslam COMPONENTS core opencv ceres io live synth system).
 # Each component has an export of its own, so that the core never looks for OpenCV or Ceres. What a developer needs is
 # the install component `dev`, the command line is `cli`.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/sslam")
 
-foreach(component core io live synth opencv ceres)
+foreach(component core io live synth opencv ceres system)
   if(TARGET sslam_${component})
-    install(TARGETS sslam_${component} EXPORT sslam_${component} FILE_SET HEADERS
-            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
+    install(TARGETS sslam_${component} EXPORT sslam_${component}
+            ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
+            FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
     install(EXPORT sslam_${component} FILE "sslam-${component}.cmake" NAMESPACE sslam:: DESTINATION "${package_dir}"
             COMPONENT dev)
   endif()
@@ -15,8 +16,7 @@ endforeach()
 
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/sslamConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/sslamConfig.cmake" INSTALL_DESTINATION "${package_dir}")
-write_basic_package_version_file("${PROJECT_BINARY_DIR}/sslamConfigVersion.cmake" COMPATIBILITY SameMinorVersion
-                                 ARCH_INDEPENDENT)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/sslamConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/sslamConfig.cmake" "${PROJECT_BINARY_DIR}/sslamConfigVersion.cmake"
         DESTINATION "${package_dir}" COMPONENT dev)
 

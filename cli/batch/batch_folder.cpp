@@ -21,8 +21,7 @@ void refuse_foreign(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored) || fs::is_empty(folder, ignored)) return;
   if (fs::exists(folder / kPlanFile, ignored) || fs::exists(folder / kLockFile, ignored)) return;
-  throw io::Error(folder.string() +
-                  ": holds something that sslam batch has not written; choose an empty folder");
+  throw Error(folder.string() + ": holds something that sslam batch has not written; choose an empty folder");
 }
 
 void write_facts(const fs::path& folder, const std::string& name, const SequenceFacts& facts) {
@@ -61,8 +60,8 @@ BatchFolder::BatchFolder(fs::path folder) : folder_(std::move(folder)) {
   lock_ = open((folder_ / kLockFile).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(lock_);
-    throw io::Error(folder_.string() +
-                    ": another sslam batch is at work there; wait for it, or name another --out");
+    throw Error(folder_.string() +
+                ": another sslam batch is at work there; wait for it, or name another --out");
   }
 }
 
@@ -84,9 +83,9 @@ Plan merge_plans(const std::vector<fs::path>& folders, const fs::path& out) {
     const Plan plan = read_plan(folder);
     std::error_code ignored;
     if (fs::equivalent(folder, out, ignored))
-      throw io::Error("--out " + out.string() + ": is one of the folders to merge; choose another");
+      throw Error("--out " + out.string() + ": is one of the folders to merge; choose another");
     if (!same_runs(merged, plan))
-      throw io::Error(folder.string() + ": is not a shard of the same suite as " + folders.front().string());
+      throw Error(folder.string() + ": is not a shard of the same suite as " + folders.front().string());
     for (const std::string& part : plan.parts)
       merged.parts.push_back(fs::absolute(folder / part)
                                  .lexically_normal()

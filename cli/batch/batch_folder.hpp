@@ -12,7 +12,7 @@ namespace sslam::cli {
 
 class BatchFolder {
  public:
-  // Makes it. Throws io::Error when it holds something else, or another process has it.
+  // Makes it. Throws Error when it holds something else, or another process has it.
   explicit BatchFolder(std::filesystem::path folder);
   BatchFolder(const BatchFolder&) = delete;
   BatchFolder& operator=(const BatchFolder&) = delete;
@@ -26,7 +26,7 @@ class BatchFolder {
   int lock_ = -1;
 };
 
-// One plan with the runs of all these folders, for tables in `out`. Throws io::Error when they are not of one
+// One plan with the runs of all these folders, for tables in `out`. Throws Error when they are not of one
 // suite.
 [[nodiscard]] Plan merge_plans(const std::vector<std::filesystem::path>& folders,
                                const std::filesystem::path& out);

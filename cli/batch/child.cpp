@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
@@ -73,7 +73,7 @@ Child::Child(const std::vector<std::string>& arguments, const std::filesystem::p
   const int error = posix_spawn(&pid_, "/proc/self/exe", &setup.files, &setup.attributes,
                                 pointers_to(words).data(), pointers_to(variables).data());
   if (error != 0)
-    throw io::Error(log.string() + ": cannot start a run that writes there: " + std::strerror(error));
+    throw Error(log.string() + ": cannot start a run that writes there: " + std::strerror(error));
 }
 
 std::optional<ChildEnd> Child::poll() {

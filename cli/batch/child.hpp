@@ -18,7 +18,7 @@ struct ChildEnd {
 
 class Child {
  public:
-  // Runs this program anew; its output goes to `log`. Throws io::Error when it cannot be started.
+  // Runs this program anew; its output goes to `log`. Throws Error when it cannot be started.
   Child(const std::vector<std::string>& arguments, const std::filesystem::path& log);
 
   // Nothing while it runs.

@@ -127,14 +127,14 @@ Plan read_plan(const fs::path& folder) {
   const fs::path file = folder / kPlanFile;
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
-    throw io::Error(folder.string() + ": no such folder; wants one that `sslam batch` has written to");
+    throw Error(folder.string() + ": no such folder; expected one that `sslam batch` has written to");
   if (!fs::exists(file, ignored))
-    throw io::Error(folder.string() + ": holds no " + kPlanFile +
-                    "; wants a folder that `sslam batch` has written to");
+    throw Error(folder.string() + ": holds no " + kPlanFile +
+                "; expected a folder that `sslam batch` has written to");
   try {
     return plan_from(Json::parse(io::read_text(file)));
   } catch (const Json::exception&) {
-    throw io::Error(file.string() + ": is damaged; run the batch again, it keeps the runs that are done");
+    throw Error(file.string() + ": is damaged; run the batch again, it keeps the runs that are done");
   }
 }
 

@@ -53,7 +53,7 @@ inline constexpr const char* kPlanFile = "batch.json";
 
 void write_plan(const std::filesystem::path& folder, const Plan& plan);
 
-// Throws io::Error when the folder holds none.
+// Throws Error when the folder holds none.
 [[nodiscard]] Plan read_plan(const std::filesystem::path& folder);
 
 // Part i of n, counted from 1: every n-th run, so that each part has its share of each sequence.

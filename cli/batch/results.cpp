@@ -27,7 +27,7 @@ void take_trajectory(const fs::path& file, Estimate& estimate) {
   io::Warnings ignored;
   try {
     estimate.trajectory = io::read_trajectory(file, ignored);
-  } catch (const io::Error& error) {
+  } catch (const Error& error) {
     estimate.failed = estimate.broken = true;
     estimate.reason = error.what();
   }
@@ -81,7 +81,7 @@ std::optional<double> ate_of(const io::Trajectory& truth, const io::Trajectory& 
   if (truth.empty()) return std::nullopt;
   try {
     return io::evaluate(truth, estimate, {}).position.rmse;
-  } catch (const io::Error& error) {
+  } catch (const Error& error) {
     why = error.what();
     return std::nullopt;
   }

@@ -48,7 +48,7 @@ struct Results {
   std::vector<ResultColumn> columns;
 };
 
-// Of a batch and, in columns of their own, of earlier ones. Throws io::Error when a folder is none of a
+// Of a batch and, in columns of their own, of earlier ones. Throws Error when a folder is none of a
 // batch.
 [[nodiscard]] Results read_results(const std::filesystem::path& folder,
                                    const std::vector<std::filesystem::path>& earlier);

@@ -13,7 +13,7 @@
 #include "cli/batch/run_mark.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/messages.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 namespace {

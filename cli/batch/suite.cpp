@@ -25,7 +25,7 @@ class SuiteReader {
     try {
       root = toml::parse(text, file_);
     } catch (const toml::parse_error& error) {
-      throw io::Error(at_line(file_, error.source().begin.line) + std::string(error.description()));
+      throw Error(at_line(file_, error.source().begin.line) + std::string(error.description()));
     }
     SuiteTable top(root, file_, "the suite");
     suite_.file = file_;
@@ -42,7 +42,7 @@ class SuiteReader {
     read_each(top, "reference", [&](SuiteTable& table) { read_reference(table); });
     top.refuse_others();
     if (suite_.sequences.empty())
-      throw io::Error(file_ + ": names no sequence; it wants at least one [[sequence]] with a path");
+      throw Error(file_ + ": names no sequence; expected at least one [[sequence]] with a path");
     if (suite_.methods.empty()) suite_.methods = default_methods(defaults);
     for (SuiteMethod& method : suite_.methods) method.normals = resolve_normals(method.normals);
     refuse_doubles();
@@ -57,7 +57,7 @@ class SuiteReader {
     const toml::array* const list = node->as_array();
     const std::string heading = "[[" + key + "]]";
     if (list == nullptr || !list->is_array_of_tables())
-      top.fail(key, "wants a table with two brackets, " + heading);
+      top.fail(key, "expected a table with two brackets, " + heading);
     for (const toml::node& element : *list) {
       SuiteTable table(*element.as_table(), file_, heading);
       read_one(table);
@@ -92,13 +92,13 @@ class SuiteReader {
     reference.min_tracked = table.number("min_tracked", suite_.min_tracked, 0, 1);
     const toml::node* const node = table.find("trajectories");
     if (node == nullptr || !node->is_table())
-      table.fail("trajectories", "wants SEQUENCE = \"FILE\" or a list of files, one for each run");
+      table.fail("trajectories", "expected SEQUENCE = \"FILE\" or a list of files, one for each run");
     SuiteTable files(*node->as_table(), file_, "trajectories of [[reference]]");
     for (const SuiteSequence& sequence : suite_.sequences) {
       for (const std::string& path : files.texts(sequence.name)) {
         std::error_code ignored;
         if (!fs::is_regular_file(resolve(path), ignored))
-          files.fail(sequence.name, resolve(path) + ": no such file; wants a trajectory in TUM format");
+          files.fail(sequence.name, resolve(path) + ": no such file; expected a trajectory in TUM format");
         reference.trajectories[sequence.name].push_back(resolve(path));
       }
     }
@@ -123,9 +123,9 @@ class SuiteReader {
       for (auto second = list.begin(); second != list.end(); ++second)
         for (auto first = list.begin(); first != second; ++first)
           if (io::lower_case(folder_name(first->name)) == io::lower_case(folder_name(second->name)))
-            throw io::Error(at_line(file_, second->line) + "name in " + what + ": '" + second->name +
-                            "' is there already, in line " + std::to_string(first->line) +
-                            "; give each a name of its own");
+            throw Error(at_line(file_, second->line) + "name in " + what + ": '" + second->name +
+                        "' is there already, in line " + std::to_string(first->line) +
+                        "; give each a name of its own");
     };
     check(suite_.sequences, "[[sequence]]");
     check(suite_.methods, "[[method]]");

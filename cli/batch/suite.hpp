@@ -54,7 +54,7 @@ struct Suite {
   int against_line = 0;
 };
 
-// Paths in the file are relative to its folder. Throws io::Error that names file, line and key.
+// Paths in the file are relative to its folder. Throws Error that names file, line and key.
 [[nodiscard]] Suite read_suite(const std::filesystem::path& file);
 
 // The name as a part of a path: letters, digits, '.', '_', '=' and '-'.

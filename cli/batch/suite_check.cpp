@@ -19,9 +19,8 @@ class SuiteCheck {
     for (const std::filesystem::path& earlier : suite_.against)
       in(suite_.against_line, "against", [&] { (void)read_plan(earlier); });
     for (const SuiteMethod& method : suite_.methods) {
-      in(method.preset_line, "[[method]]", [&] { (void)find_preset(method.preset); });
-      in(method.set_line, "[[method]]",
-         [&] { (void)set_parameters(find_preset(method.preset), method.set); });
+      in(method.preset_line, "[[method]]", [&] { (void)choose_preset(method.preset); });
+      in(method.set_line, "[[method]]", [&] { check_overrides(choose_preset(method.preset), method.set); });
     }
     std::vector<SequenceFacts> facts;
     for (const SuiteSequence& sequence : suite_.sequences) facts.push_back(check_sequence(sequence));
@@ -36,8 +35,8 @@ class SuiteCheck {
     try {
       check();
     } catch (const std::exception& error) {
-      throw io::Error(suite_.file.string() + ": line " + std::to_string(line) + ": " + what + ": " +
-                      error.what());
+      throw Error(suite_.file.string() + ": line " + std::to_string(line) + ": " + what + ": " +
+                  error.what());
     }
   }
 
@@ -58,8 +57,7 @@ class SuiteCheck {
                                        : load_truth(sequence.truth, FileAxes::kAuto).trajectory;
       facts.truth = truth_during(dataset, truth);
       if (facts.truth.empty() && !sequence.truth.empty())
-        throw io::Error(sequence.truth.string() + ": no pose at the time of the images of " +
-                        sequence.dataset);
+        throw Error(sequence.truth.string() + ": no pose at the time of the images of " + sequence.dataset);
       facts.frames = io::frame_stamps(dataset);
     });
     if (facts.truth.empty())

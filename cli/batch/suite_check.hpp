@@ -15,7 +15,7 @@ struct SequenceFacts {
   std::vector<double> frames;  // stamps
 };
 
-// One for each sequence of the suite. Throws io::Error that names file, line and what is wrong.
+// One for each sequence of the suite. Throws Error that names file, line and what is wrong.
 [[nodiscard]] std::vector<SequenceFacts> check_suite(const Suite& suite);
 
 }  // namespace sslam::cli

@@ -94,7 +94,7 @@ void read_methods(SuiteTable& table, const MethodDefaults& defaults, std::vector
   multiply(all, choices_of(table.texts("normals")),
            [](SuiteMethod& method, const std::string& normals) { method.normals = normals; });
   if (const toml::node* const set = table.find("set")) {
-    if (!set->is_table()) table.fail("set", "wants a table such as {keyframes.min_gap = 5}");
+    if (!set->is_table()) table.fail("set", "expected a table such as {keyframes.min_gap = 5}");
     multiply_parameters(*set->as_table(), table.file(), "", all);
   }
   for (SuiteMethod& method : all) {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sslam/core/closest_word.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 
@@ -34,7 +34,7 @@ class SuiteTable {
     return node == nullptr ? line() : static_cast<int>(node->source().begin.line);
   }
   [[noreturn]] void fail(std::string_view key, const std::string& wrong) const {
-    throw io::Error(at_line(file_, line_of(key)) + std::string(key) + " in " + what_ + ": " + wrong);
+    throw Error(at_line(file_, line_of(key)) + std::string(key) + " in " + what_ + ": " + wrong);
   }
 
   // What stands under a key; a null pointer where nothing does.
@@ -50,7 +50,7 @@ class SuiteTable {
   }
   [[nodiscard]] std::string required_text(std::string_view key, const std::string& meaning) {
     if (auto found = text(key)) return *found;
-    throw io::Error(at_line(file_, line()) + what_ + " has no " + std::string(key) + ": it wants " + meaning);
+    throw Error(at_line(file_, line()) + what_ + " has no " + std::string(key) + ": expected " + meaning);
   }
 
   // A text, or a list of them.
@@ -84,7 +84,7 @@ class SuiteTable {
   [[nodiscard]] bool flag(std::string_view key, bool otherwise) {
     const toml::node* const node = find(key);
     if (node == nullptr) return otherwise;
-    if (!node->is_boolean()) fail(key, "wants true or false");
+    if (!node->is_boolean()) fail(key, "expected true or false");
     return node->value_or(otherwise);
   }
 
@@ -93,8 +93,8 @@ class SuiteTable {
     for (const auto& [key, node] : table_) {
       const std::string found(key.str());
       if (std::find(known_.begin(), known_.end(), found) != known_.end()) continue;
-      throw io::Error(at_line(file_, key.source().begin.line) + "'" + found + "' is not a key of " + what_ +
-                      suggestion(found, known_));
+      throw Error(at_line(file_, key.source().begin.line) + "'" + found + "' is not a key of " + what_ +
+                  suggestion(found, known_));
     }
   }
 
@@ -121,19 +121,19 @@ class SuiteTable {
 
   [[nodiscard]] std::string text_of(std::string_view key, const toml::node& node) const {
     const auto value = node.value_exact<std::string>();
-    if (!value) fail(key, "wants text in quotes");
+    if (!value) fail(key, "expected text in quotes");
     if (value->empty()) fail(key, "is empty");
     return *value;
   }
   [[nodiscard]] double number_of(std::string_view key, const toml::node& node) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value)) fail(key, "wants a number");
+    if (!value || !std::isfinite(*value)) fail(key, "expected a number");
     return *value;
   }
   [[nodiscard]] std::int64_t whole_of(std::string_view key, const toml::node& node,
                                       std::int64_t least) const {
     const auto value = node.value_exact<std::int64_t>();
-    if (!value || *value < least) fail(key, "wants a whole number from " + std::to_string(least) + " on");
+    if (!value || *value < least) fail(key, "expected a whole number from " + std::to_string(least) + " on");
     return *value;
   }
 

@@ -14,7 +14,7 @@ namespace sslam::cli {
 [[nodiscard]] std::string html_page(const ResultPage& page);
 
 // tables.md, tables.tex, tables.html, a CSV file for each table, and runs.csv with a row for each run. Throws
-// io::Error when one cannot be written.
+// Error when one cannot be written.
 void write_tables(const std::filesystem::path& folder, const Results& results, const ResultPage& page);
 
 }  // namespace sslam::cli

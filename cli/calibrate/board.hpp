@@ -31,7 +31,7 @@ struct BoardView {
 
 class Board {
  public:
-  // Throws io::Error when the settings make no board.
+  // Throws Error when the settings make no board.
   explicit Board(const BoardSettings& settings);
 
   // Corners in an 8 bit grey image; too few are none.

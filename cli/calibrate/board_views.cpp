@@ -27,9 +27,9 @@ bool alike(const BoardView& a, const BoardView& b, int width) {
 void check_size(const cv::Mat& image, const std::string& name, const std::string& first, cv::Size& size) {
   if (size.empty()) size = image.size();
   if (image.size() == size) return;
-  throw io::Error(name + ": has " + size_text(image.cols, image.rows) + " pixels, and " + first + " " +
-                  size_text(size.width, size.height) +
-                  "; a camera is calibrated from images of one size and orientation");
+  throw Error(name + ": has " + size_text(image.cols, image.rows) + " pixels, and " + first + " " +
+              size_text(size.width, size.height) +
+              "; a camera is calibrated from images of one size and orientation");
 }
 
 std::string where_else(const std::vector<cv::Mat>& images, const Board& board) {
@@ -79,10 +79,10 @@ BoardViews find_views(const io::Dataset& dataset, const Board& board, Verbosity 
     }
   }
   progress.finish();
-  if (found.searched == 0 && !found.unreadable.empty()) throw io::Error(found.unreadable.front());
+  if (found.searched == 0 && !found.unreadable.empty()) throw Error(found.unreadable.front());
   if (found.views.empty())
-    throw io::Error(dataset.root.string() + ": no board of " + board.text() + " in any of " +
-                    std::to_string(found.searched) + " images" + where_else(boardless, board));
+    throw Error(dataset.root.string() + ": no board of " + board.text() + " in any of " +
+                std::to_string(found.searched) + " images" + where_else(boardless, board));
   return found;
 }
 

@@ -21,7 +21,7 @@ struct BoardViews {
   std::vector<std::string> unreadable;  // a line each
 };
 
-// Throws io::Error when the images are not of one size, or none shows the board.
+// Throws Error when the images are not of one size, or none shows the board.
 [[nodiscard]] BoardViews find_views(const io::Dataset& dataset, const Board& board, Verbosity verbosity);
 
 }  // namespace sslam::cli

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "sslam/core/error.hpp"
 #include "sslam/core/types.hpp"
 #include "sslam/io/evaluation/statistics.hpp"
-#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -35,7 +35,7 @@ Fit fit(const std::vector<BoardView>& views, cv::Size size, bool with_k3) {
     fit.error = cv::calibrateCamera(board, image, size, fit.matrix, fit.lens, fit.rotations, fit.translations,
                                     fit.sigmas, unused, fit.view_errors, with_k3 ? 0 : cv::CALIB_FIX_K3);
   } catch (const cv::Exception&) {
-    throw io::Error(std::string("the views do not determine a camera; ") + kTilt);
+    throw Error(std::string("the views do not determine a camera; ") + kTilt);
   }
   return fit;
 }
@@ -74,7 +74,7 @@ void refuse_unconstrained(const Fit& fit, cv::Size size) {
     why += cv::format(": no board is tilted by more than %.0f degrees", tilt);
   else if (sensible)
     why += cv::format(" better than %.1f %%", 100 * sigma);
-  throw io::Error(why + "; " + kTilt);
+  throw Error(why + "; " + kTilt);
 }
 
 Camera<double> camera_of(const Fit& fit, cv::Size size) {
@@ -107,9 +107,8 @@ Calibration calibrate(const std::vector<BoardView>& views, cv::Size size, bool w
   }
   constexpr double kLargestError = 3;  // pixels
   if (last.error > kLargestError)
-    throw io::Error(
-        cv::format("the corners miss the board by %.1f pixels; ", last.error) +
-        "check --size and --pattern, that the board is flat, and that nothing zooms or refocuses");
+    throw Error(cv::format("the corners miss the board by %.1f pixels; ", last.error) +
+                "check --size and --pattern, that the board is flat, and that nothing zooms or refocuses");
   refuse_unconstrained(last, size);
   result.camera = camera_of(last, size);
   result.error = last.error;

@@ -24,7 +24,7 @@ struct Calibration {
 
 inline constexpr std::size_t kLeastViews = 5;
 
-// Leaves out views that fit much worse than the others. Throws io::Error when the views do not give a camera.
+// Leaves out views that fit much worse than the others. Throws Error when the views do not give a camera.
 [[nodiscard]] Calibration calibrate(const std::vector<BoardView>& views, cv::Size size, bool with_k3);
 
 }  // namespace sslam::cli

@@ -10,7 +10,7 @@
 
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/interrupt.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -70,7 +70,7 @@ CURLcode attempt(const std::string& address, const fs::path& part, Transfer& tra
   const auto size = fs::file_size(part, none);
   transfer.before = none ? 0 : static_cast<curl_off_t>(size);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(part.c_str(), "ab"), std::fclose);
-  if (!file) throw io::Error(part.string() + ": cannot write");
+  if (!file) throw Error(part.string() + ": cannot write");
   transfer.file = file.get();
   const std::unique_ptr<CURL, void (*)(CURL*)> curl(curl_easy_init(), curl_easy_cleanup);
   char text[CURL_ERROR_SIZE] = "";
@@ -104,10 +104,10 @@ void download(const std::string& address, const fs::path& file, Verbosity verbos
     std::error_code ignored;
     const auto received = fs::file_size(part, ignored);
     if (received == 0) fs::remove(part, ignored);
-    throw io::Error(address + ": " + message +
-                    (received > 0
-                         ? "; the same command goes on behind what has been received"
-                         : "; is there a network, and is this still the address? --mirror names another"));
+    throw Error(address + ": " + message +
+                (received > 0
+                     ? "; the same command goes on behind what has been received"
+                     : "; is there a network, and is this still the address? --mirror names another"));
   }
   fs::rename(part, file);
 }

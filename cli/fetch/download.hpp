@@ -9,7 +9,7 @@
 
 namespace sslam::cli {
 
-// Into `file`, by way of `file`.part, which an earlier try may have left. Throws io::Error in one line; Stop
+// Into `file`, by way of `file`.part, which an earlier try may have left. Throws Error in one line; Stop
 // when interrupted. What has been received stays in both cases.
 void download(const std::string& address, const std::filesystem::path& file, Verbosity verbosity);
 

@@ -26,7 +26,7 @@ struct GzipReader {
   std::array<char, 1 << 16> buffer{};
 
   explicit GzipReader(const fs::path& path) : file(gzopen(path.c_str(), "rb")) {
-    if (file == nullptr) throw io::Error(path.string() + ": cannot open");
+    if (file == nullptr) throw Error(path.string() + ": cannot open");
   }
   GzipReader(const GzipReader&) = delete;
   GzipReader& operator=(const GzipReader&) = delete;

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <string>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 
 // What is wrong with the archive itself, and not with the disk.
-struct BadArchive : io::Error {
-  using io::Error::Error;
+struct BadArchive : Error {
+  using Error::Error;
 };
 
 // The files of a tar archive with gzip's checksum into the folder; a first folder of the archive that is

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "sslam/core/error.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
-#include "sslam/io/files/error.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 
 namespace sslam::cli {
@@ -56,7 +56,7 @@ struct CameraChoice {
 // As find_camera, for those who need one: throws when nothing is known about the camera.
 [[nodiscard]] inline CameraChoice choose_camera(const std::string& wanted, const io::Dataset& dataset) {
   if (auto found = find_camera(wanted, dataset)) return *found;
-  throw io::Error(
+  throw Error(
       dataset.root.string() + ": the camera is not known; pass --camera FILE (YAML with Camera.fx, ...) or " +
       "the name of a built-in calibration (" + io::known_camera_names() + "), or put a camera.yaml there");
 }

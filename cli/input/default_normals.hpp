@@ -33,7 +33,7 @@ struct DefaultNormals {
   if (!wanted) return {"none", ""};
   if (shipped_model) return {"onnx", ""};
   return {"none",
-          "the normal network that comes with sslam is not installed: lines alone speak for the axes"};
+          "the normal network that comes with sslam is not installed: the axes come from lines alone"};
 }
 
 }  // namespace sslam::cli

@@ -5,8 +5,8 @@
 
 namespace sslam::cli {
 
-FrameStream::FrameStream(const io::Dataset& dataset, StreamSettings settings)
-    : dataset_(dataset), settings_(std::move(settings)), reader_(dataset) {
+FrameStream::FrameStream(const io::Dataset& dataset, System& system, double pace)
+    : dataset_(dataset), system_(system), pace_(pace), reader_(dataset) {
   producer_ = std::thread([this] { produce(); });
 }
 
@@ -61,14 +61,14 @@ void FrameStream::produce() {
 
 // A frame that finds no room comes late: none is dropped. False: the stream is to stop.
 bool FrameStream::wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry) {
-  if (settings_.pace == 0) return true;
-  const double since = (entry.stamp - dataset_.frames.front().stamp) * settings_.pace;
+  if (pace_ == 0) return true;
+  const double since = (entry.stamp - dataset_.frames.front().stamp) * pace_;
   const auto due = start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since));
   return !changed_.wait_until(lock, due, [&] { return stop_; });
 }
 
 void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
-  out.image = reader_.label(entry);
+  out.label = reader_.label(entry);
   out.warning.clear();
   ImageInput input;
   input.index = entry.index;
@@ -77,16 +77,12 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   std::string why;
   input.image = reader_.read(entry, why);
   if (!input.image.empty()) read_depth(entry, input, out);
-  out.report = settings_.frontend.process(input, out.frame);
-  out.usable = out.report.image == ImageStatus::kOk;
-  if (!out.usable) {
+  system_.extract(input, out);
+  if (!out.usable()) {
     if (why.empty()) why = entry.image + ": " + name(out.report.image);
     out.warning = why + "; frame skipped";
     return;
   }
-  if (settings_.keep_pictures) keep_pictures(input, out);
-  if (!settings_.use_points) out.frame.points.clear();
-  if (!settings_.use_lines) out.frame.lines.clear();
   // A view without planes is no fault of the input: the run's figures count it, and nobody is warned.
   const bool fine =
       out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
@@ -94,16 +90,9 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
     out.warning = entry.image + ": " + name(out.report.normals) + "; lines alone for this frame";
 }
 
-void FrameStream::keep_pictures(const ImageInput& input, ExtractedFrame& out) const {
-  out.picture = input.image;
-  const bool seen =
-      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
-  out.normal_picture = seen ? settings_.frontend.normals.small_picture() : cv::Mat();
-}
-
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {
-  if (entry.depth.empty() || !std::holds_alternative<DepthNormals>(settings_.frontend.normals.source)) return;
-  input.depth_factor = settings_.depth_factor;
+  if (entry.depth.empty() || !system_.reads_depth()) return;
+  input.depth_factor = system_.settings().depth_factor;
   std::string why;
   input.depth = load_depth(entry.depth, dataset_.layout, why);
   if (input.depth.empty()) out.warning = why + "; lines alone for this frame";

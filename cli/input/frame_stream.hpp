@@ -14,40 +14,25 @@
 #include <vector>
 
 #include "cli/input/frame_reader.hpp"
-#include "cli/input/normal_choice.hpp"
 #include "sslam/io/datasets/dataset.hpp"
-#include "sslam/opencv/image_frontend.hpp"
+#include "sslam/system/system.hpp"
 
 namespace sslam::cli {
 
-struct StreamSettings {
-  ImageFrontend<NormalChoice> frontend;
-  double depth_factor = 5000;  // depth image units a metre
-  bool use_points = true;
-  bool use_lines = true;
-  bool keep_pictures = false;  // hand the images on with their frames
-  double pace = 0;             // seconds a unit of the stamps, to deliver as a camera would; 0: at once
-};
-
-struct ExtractedFrame {
-  Frame<double> frame;
-  FrontendReport report;
-  std::string image;       // file name, for people
-  std::string warning;     // not empty: something is wrong with this frame
-  bool usable = true;      // false: the frame could not be read and is skipped
-  cv::Mat picture;         // the image, if pictures are kept
-  cv::Mat normal_picture;  // its normals in small, if pictures are kept and there are any
+struct ExtractedFrame : Extraction {
+  std::string warning;  // not empty: something is wrong with this frame
 };
 
 class FrameStream {
  public:
-  FrameStream(const io::Dataset& dataset, StreamSettings settings);
+  // `pace`: seconds a unit of the stamps, to deliver frames as a camera would; 0: at once. The dataset and
+  // the system outlive the stream.
+  FrameStream(const io::Dataset& dataset, System& system, double pace);
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
 
   [[nodiscard]] std::size_t size() const noexcept { return dataset_.frames.size(); }
-  [[nodiscard]] const Camera<double>& camera() const noexcept { return settings_.frontend.camera; }
 
   // The next frame in order; false at the end. The old contents of `out` are recycled.
   [[nodiscard]] bool next(ExtractedFrame& out);
@@ -56,11 +41,11 @@ class FrameStream {
   void produce();
   [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
   void fill(const io::FrameEntry& entry, ExtractedFrame& out);
-  void keep_pictures(const ImageInput& input, ExtractedFrame& out) const;
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
 
   const io::Dataset& dataset_;
-  StreamSettings settings_;
+  System& system_;
+  double pace_;
   FrameReader reader_;
 
   using Clock = std::chrono::steady_clock;

@@ -68,7 +68,7 @@ namespace sslam::cli {
   return {cv::IMWRITE_PNG_COMPRESSION, 1};
 }
 
-// parameters as cv::imwrite takes them. Throws io::Error when the file cannot be written.
+// parameters as cv::imwrite takes them. Throws Error when the file cannot be written.
 inline void write_image(const std::filesystem::path& path, const cv::Mat& image,
                         const std::vector<int>& parameters) {
   bool written = false;
@@ -76,13 +76,13 @@ inline void write_image(const std::filesystem::path& path, const cv::Mat& image,
     written = cv::imwrite(path.string(), image, parameters);
   } catch (const cv::Exception&) {
   }
-  if (!written) throw io::Error(path.string() + ": cannot write this image");
+  if (!written) throw Error(path.string() + ": cannot write this image");
 }
 
-// Opens the video once to learn how many frames it has. Throws io::Error when it cannot. Slice after this.
+// Opens the video once to learn how many frames it has. Throws Error when it cannot. Slice after this.
 inline void list_video_frames(io::Dataset& dataset) {
   cv::VideoCapture video;
-  if (!video.open(dataset.root.string())) throw io::Error(dataset.root.string() + ": cannot open this video");
+  if (!video.open(dataset.root.string())) throw Error(dataset.root.string() + ": cannot open this video");
   io::fill_video_frames(dataset, static_cast<std::int64_t>(video.get(cv::CAP_PROP_FRAME_COUNT)),
                         video.get(cv::CAP_PROP_FPS));
 }

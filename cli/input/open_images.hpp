@@ -13,14 +13,14 @@ namespace sslam::cli {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-// Throws io::Error when there is nothing of this kind.
+// Throws Error when there is nothing of this kind.
 [[nodiscard]] inline io::Dataset open_images(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) {
     if (io::is_image_name(path))
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
     if (!io::is_video_name(path))
-      throw io::Error(path.string() + ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...)");
+      throw Error(path.string() + ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...)");
   }
   io::Dataset dataset = io::open_dataset(path);
   if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);

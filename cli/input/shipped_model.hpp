@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "cli/input/default_normals.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 
@@ -23,11 +23,11 @@ namespace sslam::cli {
   return first_model(shipped_model_places());
 }
 
-// As above. Throws io::Error when it is in neither place; `instead` says what the user can do.
+// As above. Throws Error when it is in neither place; `instead` says what the user can do.
 [[nodiscard]] inline std::filesystem::path shipped_model(const std::string& instead) {
   if (const auto found = find_shipped_model()) return *found;
-  throw io::Error("the normal network that comes with sslam is not installed; looked for " +
-                  shipped_model_places()[0].string() + "; " + instead);
+  throw Error("the normal network that comes with sslam is not installed; looked for " +
+              shipped_model_places()[0].string() + "; " + instead);
 }
 
 }  // namespace sslam::cli

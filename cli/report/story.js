@@ -95,9 +95,9 @@ function tellStory() {
   }
   const marked = (column) => frames.has(column) ? Array.from({ length: frames.count }, (_, row) => row).filter((row) => frames.number(column, row) === 1) : [];
   for (const row of marked("loop_closed"))
-    items.push({ state: "manhattan", row, length: 1, text: `A loop was closed: a place known from before was met again (${whereOf({ from: row, to: row })}).` });
+    items.push({ state: "manhattan", row, length: 1, text: `A loop was closed: a known place was recognised (${whereOf({ from: row, to: row })}).` });
   for (const row of marked("maps_joined"))
-    items.push({ state: "manhattan", row, length: 1, text: `Two maps became one: a place of a map that had been left was met again (${whereOf({ from: row, to: row })}).` });
+    items.push({ state: "manhattan", row, length: 1, text: `Two maps became one: a place of an earlier map was recognised (${whereOf({ from: row, to: row })}).` });
   if (metrics.maps_apart > 0)
     items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be connected with this one: no place was seen in both. Those frames have no pose in the trajectory.` });
   const unseen = metrics.frames_without_normal_evidence;

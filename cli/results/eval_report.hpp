@@ -15,7 +15,7 @@ namespace sslam::cli {
 // Lengths in metres, angles in degrees, as the names of the members say.
 [[nodiscard]] nlohmann::ordered_json evaluation_json(const io::Evaluation& evaluation);
 
-// Indented, with a newline at the end. Throws io::Error when it cannot be written.
+// Indented, with a newline at the end. Throws Error when it cannot be written.
 void write_json(const std::string& path, const nlohmann::ordered_json& json);
 
 }  // namespace sslam::cli

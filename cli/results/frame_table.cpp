@@ -26,7 +26,7 @@ std::vector<std::string> frame_columns() {
 }
 
 std::vector<std::string> frame_cells(const FrameRecord& frame) {
-  const auto& r = frame.result;
+  const FrameRecord& r = frame;
   const auto ms = [](double value) { return std::round(value * 1e3) / 1e3; };
   auto cells = texts_of(r.index, r.stamp, frame.image, name(r.state), name(r.reason), frame.points,
                         frame.lines, frame.normals, r.point_inliers, r.line_inliers, r.axes_seen, r.keyframe,

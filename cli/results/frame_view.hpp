@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sslam/geometry/camera.hpp"
-#include "sslam/track/contract/tracked_frame.hpp"
+#include "sslam/system/observer.hpp"
 
 namespace sslam::cli {
 
@@ -19,6 +19,12 @@ struct FrameViewInput {
   const Camera<double>& camera;   // of the picture
   const std::vector<SO3<double>>& world_from_manhattan;
 };
+
+// `row` counts the frames that were tracked; `camera` is that of the images.
+[[nodiscard]] inline FrameViewInput frame_view(const FrameEvent& event, std::size_t row,
+                                               const Camera<double>& camera) {
+  return {row, event.input.picture, event.input.normal_picture, camera, event.map.world_from_manhattan};
+}
 
 // Bytes, little-endian; cli/report/views.js reads them, in this order:
 //   u32 row; f32 width / height of the picture

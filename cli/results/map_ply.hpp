@@ -12,7 +12,7 @@
 
 namespace sslam::cli {
 
-// Throws io::Error when it cannot be written.
+// Throws Error when it cannot be written.
 inline void write_map_ply(const std::filesystem::path& path, const Map<double>& map) {
   constexpr std::array<io::Colour, 4> kAxisColours{
       {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none

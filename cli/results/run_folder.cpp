@@ -18,15 +18,14 @@ class Reader {
   [[nodiscard]] RunFolder read() {
     std::error_code error;
     if (!fs::is_directory(folder_, error))
-      throw io::Error(folder_.string() + ": " +
-                      (fs::exists(folder_, error) ? "is no folder" : "no such folder") +
-                      "; wants the one that `sslam run --out` has written to");
+      throw Error(folder_.string() + ": " + (fs::exists(folder_, error) ? "is no folder" : "no such folder") +
+                  "; expected the one that `sslam run --out` has written to");
     run_.name = folder_name(folder_);
     const bool has_metrics = take("metrics.json", [&](const fs::path& path) { read_metrics(path); });
     const bool has_frames =
         take("frames.csv", [&](const fs::path& path) { run_.frames = io::read_csv(path, run_.problems); });
     if (!has_metrics && !has_frames)
-      throw io::Error(folder_.string() + ": holds no run that can be read (" + run_.problems.front() + ")");
+      throw Error(folder_.string() + ": holds no run that can be read (" + run_.problems.front() + ")");
     // A run that tracked nothing has no poses to read, and no map.
     if (!counted_none("keyframes")) take_poses("keyframes.txt", run_.keyframes);
     if (!counted_none("tracked")) {
@@ -69,7 +68,7 @@ class Reader {
 
   void read_metrics(const fs::path& path) {
     auto metrics = nlohmann::ordered_json::parse(io::read_text(path), nullptr, false);
-    if (!metrics.is_object()) throw io::Error(path.string() + ": is no JSON object; cut off?");
+    if (!metrics.is_object()) throw Error(path.string() + ": is no JSON object; cut off?");
     run_.metrics = std::move(metrics);
   }
 

@@ -31,7 +31,7 @@ struct RunFolder {
 // For people, however its path is written.
 [[nodiscard]] std::string folder_name(const std::filesystem::path& folder);
 
-// Throws io::Error when `folder` is none, or holds neither frames.csv nor metrics.json in a readable state.
+// Throws Error when `folder` is none, or holds neither frames.csv nor metrics.json in a readable state.
 [[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);
 
 }  // namespace sslam::cli

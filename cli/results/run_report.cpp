@@ -62,9 +62,8 @@ Json times_json(const RunOutcome& outcome) {
 }
 
 std::size_t count_frames(const RunOutcome& outcome, bool TrackResult<double>::*mark) {
-  return static_cast<std::size_t>(
-      std::count_if(outcome.frames.begin(), outcome.frames.end(),
-                    [mark](const FrameRecord& frame) { return frame.result.*mark; }));
+  return static_cast<std::size_t>(std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                                                [mark](const FrameRecord& frame) { return frame.*mark; }));
 }
 std::size_t count_loops(const RunOutcome& outcome) {
   return count_frames(outcome, &TrackResult<double>::loop_closed);
@@ -75,8 +74,7 @@ std::size_t count_joints(const RunOutcome& outcome) {
 
 Json states_json(const RunOutcome& outcome) {
   Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"lost", 0}};
-  for (const FrameRecord& f : outcome.frames)
-    states[name(f.result.state)] = states[name(f.result.state)].get<int>() + 1;
+  for (const FrameRecord& f : outcome.frames) states[name(f.state)] = states[name(f.state)].get<int>() + 1;
   return states;
 }
 
@@ -99,7 +97,7 @@ std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::
   for (const io::FrameEntry& frame : context.dataset.frames) options.frame_stamps.push_back(frame.stamp);
   try {
     return io::evaluate(context.dataset.ground_truth, trajectory, options);
-  } catch (const io::Error& error) {
+  } catch (const Error& error) {
     print_warning(std::string("no figures against ground truth: ") + error.what());
     return std::nullopt;
   }
@@ -111,8 +109,8 @@ io::Trajectory live_trajectory(const RunOutcome& outcome) {
   io::Trajectory live;
   live.reserve(outcome.frames.size());
   for (const FrameRecord& frame : outcome.frames)
-    if (frame.result.has_pose() && frame.result.world == outcome.world)
-      live.push_back({frame.result.stamp, frame.result.cam_from_world.inverse()});
+    if (frame.has_pose() && frame.world == outcome.world)
+      live.push_back({frame.stamp, frame.cam_from_world.inverse()});
   return live;
 }
 
@@ -154,10 +152,10 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   if (const std::size_t loops = count_loops(outcome); loops > 0) std::printf("loops closed     %zu\n", loops);
   if (const std::size_t joints = count_joints(outcome); joints > 0)
     std::printf("maps joined      %zu\n", joints);
-  if (outcome.maps_apart > 0)
+  if (outcome.apart.maps > 0)
     std::printf(
         "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
-        outcome.maps_apart, outcome.frames_apart);
+        outcome.apart.maps, outcome.apart.frames);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
   std::printf("written to       %s\n", context.settings.out.c_str());
 }
@@ -216,8 +214,8 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
                   {"loops", count_loops(outcome)},
                   {"world", outcome.world},
                   {"maps_joined", count_joints(outcome)},
-                  {"maps_apart", outcome.maps_apart},
-                  {"frames_apart", outcome.frames_apart},
+                  {"maps_apart", outcome.apart.maps},
+                  {"frames_apart", outcome.apart.frames},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"times", times_json(outcome)}};

@@ -23,7 +23,7 @@ struct RunContext {
 // What was asked for, as metrics.json has it; the parameters come from the outcome.
 [[nodiscard]] nlohmann::ordered_json settings_json(const RunContext& context);
 
-// Writes all files into settings.out and prints the summary. Throws io::Error when a file cannot be written.
+// Writes all files into settings.out and prints the summary. Throws Error when a file cannot be written.
 void write_run(const RunContext& context, const RunOutcome& outcome);
 
 }  // namespace sslam::cli

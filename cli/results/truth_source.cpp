@@ -11,7 +11,7 @@ namespace {
 
 TruthSource from_folder(const std::filesystem::path& folder, FileAxes axes) {
   io::Dataset dataset = io::open_dataset(folder);
-  if (dataset.ground_truth.empty()) throw io::Error(folder.string() + ": this dataset has no ground truth");
+  if (dataset.ground_truth.empty()) throw Error(folder.string() + ": this dataset has no ground truth");
   TruthSource source;
   source.trajectory = std::move(dataset.ground_truth);
   source.seconds_per_stamp = dataset.seconds_per_stamp;
@@ -33,7 +33,7 @@ std::optional<io::Dataset> dataset_around(const std::filesystem::path& file) {
   if (!io::is_tum(folder) && !io::has_numbered_images(folder)) return std::nullopt;
   try {
     return io::open_dataset(folder);
-  } catch (const io::Error&) {
+  } catch (const Error&) {
     return std::nullopt;  // a copy without its images still has a ground truth
   }
 }

@@ -21,7 +21,7 @@ struct TruthSource {
 };
 
 // With kAuto, a file is taken as y up when it is named like ICL-NUIM's (*.freiburg) or is the ground truth of
-// a folder in the layout of ICL-NUIM. Throws io::Error when there is no ground truth.
+// a folder in the layout of ICL-NUIM. Throws Error when there is no ground truth.
 [[nodiscard]] TruthSource load_truth(const std::filesystem::path& path, FileAxes axes);
 
 // That part of the truth that was recorded while the frames of the dataset were.

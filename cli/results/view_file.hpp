@@ -18,7 +18,7 @@ namespace sslam::cli {
 
 inline constexpr std::string_view kViewMagic = "SSLAMVW1";
 
-// Throws io::Error when it cannot be written.
+// Throws Error when it cannot be written.
 inline void write_views(const std::filesystem::path& path, std::span<const std::string> views) {
   io::OutputFile file(path);
   file.stream() << kViewMagic;
@@ -30,12 +30,12 @@ inline void write_views(const std::filesystem::path& path, std::span<const std::
   file.commit();
 }
 
-// The views that are whole. Throws io::Error when the file cannot be read or is none; a warning says where it
+// The views that are whole. Throws Error when the file cannot be read or is none; a warning says where it
 // is cut off.
 [[nodiscard]] inline std::vector<std::string> read_views(const std::filesystem::path& path,
                                                          io::Warnings& warnings) {
   const std::string text = io::read_text(path);
-  if (!text.starts_with(kViewMagic)) throw io::Error(path.string() + ": holds no views of a run");
+  if (!text.starts_with(kViewMagic)) throw Error(path.string() + ": holds no views of a run");
   io::ByteReader reader{std::string_view(text).substr(kViewMagic.size())};
   std::vector<std::string> views;
   try {
@@ -44,7 +44,7 @@ inline void write_views(const std::filesystem::path& path, std::span<const std::
       reader(size);
       views.emplace_back(reader.take(size));
     }
-  } catch (const io::Error&) {
+  } catch (const Error&) {
     warnings.push_back(path.string() + ": is cut off after " + std::to_string(views.size()) + " views");
   }
   return views;

@@ -9,32 +9,27 @@
 #include "cli/shell/messages.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
-#include "sslam/opencv/parameters.hpp"
+#include "sslam/system/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
 
-void check(const ParameterAnswer& answer) {
-  if (!answer.ok()) throw io::Error("--set " + answer.message);
-}
-
-void set_one(const std::string& text, ParameterTable& table) {
+ParameterValue parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value) throw io::Error("--set " + text + ": wants stage.parameter=number");
-  check(table.set(text.substr(0, equals), *value));
+  if (!value) throw Error("--set " + text + ": expected stage.parameter=number");
+  return {text.substr(0, equals), *value};
 }
 
 }  // namespace
 
-const Preset& find_preset(const std::string& wanted) {
-  std::string known;
-  for (const Preset& preset : kPresets) {
-    if (preset.name == wanted) return preset;
-    io::add_to_list(known, preset.name);
+const Preset& choose_preset(const std::string& wanted) {
+  try {
+    return find_preset(wanted);
+  } catch (const Error& error) {
+    throw Error(std::string("--preset ") + error.what());
   }
-  throw io::Error("--preset " + wanted + ": not known; use one of " + known);
 }
 
 io::Dataset open_run_dataset(const RunSettings& settings) {
@@ -57,43 +52,42 @@ CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& d
   }
   std::string why;
   const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
-  if (first.empty()) throw io::Error(why + "; the camera's size is not known without it");
+  if (first.empty()) throw Error(why + "; the camera's size is not known without it");
   camera.width = first.cols;
   camera.height = first.rows;
   return choice;
 }
 
 void check_live(const RunSettings& settings, const Preset& preset) {
-  if (!settings.live || preset.run_live != nullptr) return;
+  if (!settings.live || preset.make_live != nullptr) return;
   std::string able;
-  for (const Preset& p : kPresets)
-    if (p.run_live != nullptr) io::add_to_list(able, p.name);
-  throw io::Error("--live: not with --preset " + settings.preset + "; use one of " + able);
+  for (const Preset& p : all_presets())
+    if (p.make_live != nullptr) io::add_to_list(able, p.name);
+  throw Error("--live: not with --preset " + settings.preset + "; use one of " + able);
 }
 
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
   if (settings.normals != "depth") return;
   const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
                                [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
-  if (!any)
-    throw io::Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
+  if (!any) throw Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
   if (!(depth_factor > 0))
-    throw io::Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
+    throw Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
 
-ParameterTable set_parameters(const Preset& preset, const std::vector<std::string>& set,
-                              const ImageFrontend<NormalChoice>& frontend) {
-  ParameterTable table = preset.parameters();
-  collect_frontend_parameters(frontend, table);
-  collect_normal_parameters(table);
-  for (const std::string& text : set) set_one(text, table);
-  check(table.check());
-  return table;
+std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
+  std::vector<ParameterValue> overrides;
+  for (const std::string& text : set) overrides.push_back(parse_override(text));
+  ParameterTable table = all_parameters(preset);
+  const ParameterAnswer answer = set_parameters(overrides, table);
+  if (!answer.ok()) throw Error("--set " + answer.message);
+  return overrides;
 }
 
 std::string describe_parameters() {
   std::string text, group;
-  for (const Parameter& parameter : set_parameters(kPresets.front(), {}).entries()) {
+  const ParameterTable table = all_parameters(find_preset("structure"));
+  for (const Parameter& parameter : table.entries()) {
     const std::string stage = parameter.name.substr(0, parameter.name.find('.'));
     if (!group.empty() && stage != group) text += '\n';
     group = stage;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 
@@ -19,7 +19,7 @@ inline void apply_config_item(CLI::App& command, const std::string& file, const 
   const std::string key = item.fullname();
   CLI::Option* const option = command.get_option_no_throw(parameter ? "--set" : "--" + key);
   if (option == nullptr || key == "config")
-    throw io::Error(file + ": '" + key + "' is not an option of sslam run");
+    throw Error(file + ": '" + key + "' is not an option of sslam run");
   if (parameter) {
     // Of two settings of one parameter the later holds, and the command line has been read already.
     const std::vector<std::string> given = option->results();
@@ -40,7 +40,7 @@ inline void add_config_option(CLI::App& command) {
       for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(file))
         detail::apply_config_item(command, file, item);
     } catch (const CLI::Error& error) {
-      throw io::Error(file + ": " + error.what());
+      throw Error(file + ": " + error.what());
     }
   };
   command

@@ -41,10 +41,10 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-void Progress::show(const FrameRecord& frame) {
+void Progress::show(const FrameReport& frame) {
   const std::lock_guard lock(mutex_);
   ++done_;
-  const TrackResult<double>& r = frame.result;
+  const TrackResult<double>& r = frame;
   if (verbosity_ == Verbosity::kJson)
     return print_json({{"event", "frame"},
                        {"task", task_},
@@ -74,8 +74,8 @@ void Progress::show(const std::string& detail) {
   renew_line(detail);
 }
 
-void Progress::tell_event(const FrameRecord& frame) {
-  const TrackResult<double>& r = frame.result;
+void Progress::tell_event(const FrameReport& frame) {
+  const TrackResult<double>& r = frame;
   const bool changed = last_state_ != r.state;
   std::string text = "frame " + std::to_string(r.index) + ": ";
   if (changed && last_state_) text += std::string(name(*last_state_)) + " -> ";

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/results/frame_record.hpp"
+#include "sslam/system/frame_report.hpp"
 
 namespace sslam::cli {
 
@@ -25,13 +25,13 @@ class Progress {
   // task: what is in progress, for programs, such as "run".
   Progress(std::size_t total, Verbosity verbosity, std::string task);
 
-  void show(const FrameRecord& frame);
+  void show(const FrameReport& frame);
   void show(const std::string& detail);  // what stands behind the count and the rate
   void finish();                         // leaves the last line standing
 
  private:
   using Clock = std::chrono::steady_clock;
-  void tell_event(const FrameRecord& frame);
+  void tell_event(const FrameReport& frame);
   void renew_line(const std::string& detail);
   void print_line(const std::string& detail);
   void clear_line();

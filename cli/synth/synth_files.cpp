@@ -12,7 +12,7 @@
 #include "cli/input/image_file.hpp"
 #include "cli/input/normal_files.hpp"
 #include "cli/synth/synth_names.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
@@ -57,8 +57,7 @@ void prepare_synth_folder(const SynthSettings& settings) {
   const fs::path folder = settings.folder;
   std::error_code ignored;
   if (fs::exists(folder / "rgb.txt", ignored) && !fs::exists(folder / "synth.toml", ignored)) {
-    throw io::Error(settings.folder +
-                    ": holds a data set that sslam synth did not make; choose another folder");
+    throw Error(settings.folder + ": holds a data set that sslam synth did not make; choose another folder");
   }
   io::prepare_output_folder(folder);
   for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt"})

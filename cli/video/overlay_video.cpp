@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cli/video/frame_overlay.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/evaluation/statistics.hpp"
-#include "sslam/io/files/error.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -26,7 +26,7 @@ double frames_per_second(const io::Dataset& dataset) {
 const std::filesystem::path& checked(const std::filesystem::path& path, const io::Dataset& dataset) {
   std::error_code ignored;
   if (std::filesystem::equivalent(path, dataset.root, ignored))
-    throw io::Error("--video " + path.string() + ": is the input; choose another name");
+    throw Error("--video " + path.string() + ": is the input; choose another name");
   return path;
 }
 
@@ -34,11 +34,11 @@ const std::filesystem::path& checked(const std::filesystem::path& path, const io
 
 OverlayVideo::OverlayVideo(const std::filesystem::path& path, const io::Dataset& dataset,
                            const Camera<double>& camera)
-    : file_(checked(path, dataset), overlay_size(camera.width, camera.height), frames_per_second(dataset)) {}
+    : camera_(camera),
+      file_(checked(path, dataset), overlay_size(camera.width, camera.height), frames_per_second(dataset)) {}
 
-void OverlayVideo::add(const FrameRecord& record, const FrameViewInput& view,
-                       const TrackedFrame<double>& frame) {
-  file_.write(draw_overlay(view, frame, record.result));
+void OverlayVideo::frame_tracked(const FrameEvent& event) {
+  file_.write(draw_overlay(frame_view(event, rows_++, camera_), event.frame, event.report));
 }
 
 }  // namespace sslam::cli

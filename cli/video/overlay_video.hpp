@@ -4,24 +4,25 @@
 
 #include <filesystem>
 
-#include "cli/results/frame_record.hpp"
 #include "cli/results/frame_view.hpp"
 #include "cli/video/video_file.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 
-class OverlayVideo {
+class OverlayVideo : public Observer {
  public:
-  // `camera` is that of the images. Throws io::Error when the video cannot be made.
+  // `camera` is that of the images. Throws Error when the video cannot be made.
   OverlayVideo(const std::filesystem::path& path, const io::Dataset& dataset, const Camera<double>& camera);
 
-  void add(const FrameRecord& record, const FrameViewInput& view, const TrackedFrame<double>& frame);
+  void frame_tracked(const FrameEvent& event) override;
 
-  // Throws io::Error when not all of it could be written.
+  // Throws Error when not all of it could be written.
   void commit() { file_.commit(); }
 
  private:
+  Camera<double> camera_;
+  std::size_t rows_ = 0;  // frames so far
   VideoFile file_;
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/shell/messages.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/output_file.hpp"
 
@@ -27,7 +27,7 @@ std::vector<Encoder> encoders_for(const fs::path& path) {
     return {{"avc1", ""},
             {"mp4v", "no H.264 encoder here: the video is MPEG-4 part 2, which few browsers play"}};
   if (extension == ".avi") return {{"MJPG", ""}};
-  throw io::Error(path.string() + ": is no name for a video; it wants to end in .mp4 or .avi");
+  throw Error(path.string() + ": is no name for a video; expected to end in .mp4 or .avi");
 }
 
 }  // namespace
@@ -46,9 +46,9 @@ VideoFile::VideoFile(fs::path path, cv::Size size, double frames_per_second)
     }
   std::error_code ignored;
   fs::remove(written_, ignored);
-  throw io::Error(path_.string() + ": OpenCV here has no encoder for a video of " +
-                  std::to_string(size_.width) + "x" + std::to_string(size_.height) + " pixels in " +
-                  extension + "; try the other of .mp4 and .avi");
+  throw Error(path_.string() + ": OpenCV here has no encoder for a video of " + std::to_string(size_.width) +
+              "x" + std::to_string(size_.height) + " pixels in " + extension +
+              "; try the other of .mp4 and .avi");
 }
 
 VideoFile::~VideoFile() {
@@ -62,7 +62,7 @@ void VideoFile::check_place() {
   if (fs::is_symlink(path_, ignored)) path_ = fs::weakly_canonical(path_, ignored);
   const auto status = fs::status(path_, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-    throw io::Error(path_.string() + ": is no ordinary file, and a video cannot be streamed");
+    throw Error(path_.string() + ": is no ordinary file, and a video cannot be streamed");
   const io::OutputFile probe(path_);  // knows what is wrong with a place
 }
 
@@ -102,9 +102,9 @@ void VideoFile::commit() {
     return;
   }
   if (!is_complete())
-    throw io::Error(path_.string() + ": cannot write: not all frames have reached the file (a full disk?)");
+    throw Error(path_.string() + ": cannot write: not all frames have reached the file (a full disk?)");
   fs::rename(written_, path_, error);
-  if (error) throw io::Error(path_.string() + ": cannot write: " + error.message());
+  if (error) throw Error(path_.string() + ": cannot write: " + error.message());
   written_.clear();
 }
 

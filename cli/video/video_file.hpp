@@ -11,7 +11,7 @@ namespace sslam::cli {
 class VideoFile {
  public:
   // H.264 for .mp4 (MPEG-4 part 2, with a note, where there is no encoder), Motion JPEG for .avi. Throws
-  // io::Error when the name, the place or the encoders do not do.
+  // Error when the name, the place or the encoders do not do.
   VideoFile(std::filesystem::path path, cv::Size size, double frames_per_second);
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
@@ -20,7 +20,7 @@ class VideoFile {
   // 8 bit BGR, of the video's size.
   void write(const cv::Mat& frame);
 
-  // Throws io::Error when not every frame has reached the file. A video of no frame is no file.
+  // Throws Error when not every frame has reached the file. A video of no frame is no file.
   void commit();
 
  private:

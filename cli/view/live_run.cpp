@@ -36,24 +36,27 @@ Map<double> landmarks_of(const Map<double>& map) {
 
 }  // namespace
 
-LiveRun::LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total) : total_(total) {
+LiveRun::LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total,
+                 const Camera<double>& camera)
+    : camera_(camera), total_(total) {
   run_.name = std::move(name);
   run_.metrics["settings"] = std::move(settings);
   run_.frames.columns = frame_columns();
 }
 
-void LiveRun::add(const WatchedFrame& seen) {
-  unseen_.push_back(seen.record);
+void LiveRun::frame_tracked(const FrameEvent& event) {
+  unseen_.push_back({event.report, event.input.label});
+  const std::size_t row = rows_++;
   {
     const std::lock_guard lock(handing_);
     if (!std::exchange(wanted_, false)) return;
   }
   Handover fresh;
-  fresh.map = landmarks_of(seen.map);
-  for (const auto& entry : seen.trajectory.entries())
-    fresh.trajectory.push_back({entry.stamp, TrajectoryLog<double>::pose(seen.map, entry).inverse()});
-  fresh.keyframes = keyframe_poses(seen.map);
-  fresh.view = encode_frame_view(seen.view, seen.frame);
+  fresh.map = landmarks_of(event.map);
+  for (const auto& entry : event.trajectory.entries())
+    fresh.trajectory.push_back({entry.stamp, TrajectoryLog<double>::pose(event.map, entry).inverse()});
+  fresh.keyframes = keyframe_poses(event.map);
+  fresh.view = encode_frame_view(frame_view(event, row, camera_), event.frame);
   const std::lock_guard lock(handing_);
   fresh.version = handover_.version + 1;
   fresh.frames = std::move(handover_.frames);

@@ -9,20 +9,20 @@
 #include <vector>
 
 #include "cli/results/frame_record.hpp"
+#include "cli/results/frame_view.hpp"
 #include "cli/results/run_folder.hpp"
-#include "cli/run/track_settings.hpp"
 #include "cli/view/view_server.hpp"
 
 namespace sslam::cli {
 
-class LiveRun {
+class LiveRun : public Observer {
  public:
-  // settings: as metrics.json has them; total: frames of the run.
-  LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total);
+  // settings: as metrics.json has them; total: frames of the run; camera: of the images.
+  LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total, const Camera<double>& camera);
 
   // The tracker's: notes the frame, and hands the map over if somebody has asked since the last time. Waits
   // for nobody but for the moment in which another thread takes what was handed over.
-  void add(const WatchedFrame& seen);
+  void frame_tracked(const FrameEvent& event) override;
 
   // The server's: the page as of now.
   [[nodiscard]] SharedText page();
@@ -43,7 +43,9 @@ class LiveRun {
   void take_over();
   [[nodiscard]] nlohmann::ordered_json data();
 
+  Camera<double> camera_;
   std::vector<FrameRecord> unseen_;  // the tracker's own
+  std::size_t rows_ = 0;             // and that, frames so far
   std::mutex handing_;               // for what follows
   Handover handover_;
   bool wanted_ = false;

@@ -12,10 +12,10 @@ namespace sslam::cli {
 
 class LiveView {
  public:
-  // Says where to look. Throws io::Error when the port cannot be had.
+  // Says where to look. Throws Error when the port cannot be had.
   explicit LiveView(const RunContext& context);
 
-  void add(const WatchedFrame& seen) { run_.add(seen); }
+  [[nodiscard]] Observer& observer() noexcept { return run_; }
 
   // The run is over: shows its report until Ctrl-C.
   void show(std::string report);

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "cli/shell/interrupt.hpp"
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
@@ -100,9 +100,9 @@ void ViewServer::open_port(int port) {
   if (port_ > 0 && (port == 0 || server_->bind_to_port(kHost, port))) return;
   const std::string number = "--port " + std::to_string(port);
   if (errno == EADDRINUSE)
-    throw io::Error(number + ": is in use by another program; choose another, or 0 for any free one");
-  throw io::Error(number + ": cannot be opened (" + std::strerror(errno) +
-                  "); choose another, or 0 for any free one");
+    throw Error(number + ": is in use by another program; choose another, or 0 for any free one");
+  throw Error(number + ": cannot be opened (" + std::strerror(errno) +
+              "); choose another, or 0 for any free one");
 }
 
 std::string ViewServer::address() const {

@@ -31,7 +31,7 @@ struct ViewContent {
 
 class ViewServer {
  public:
-  // port 0: any free one. Throws io::Error when the port cannot be had.
+  // port 0: any free one. Throws Error when the port cannot be had.
   ViewServer(int port, ViewContent content);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;

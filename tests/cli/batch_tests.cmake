@@ -24,11 +24,11 @@ sslam_suite_refuses("a word far from any key" "line 3: 'xylophone' is not a key 
 sslam_suite_refuses("text without end" "line 2: " "[[sequence]]\npath = \"images\n")
 sslam_suite_refuses("a missing path" "line 2: ..sequence..: [^\n]*nowhere: no such file or folder"
                     "[[sequence]]\npath = \"nowhere\"\n")
-sslam_suite_refuses("a sequence without a path" "line 1: ..sequence.. has no path: it wants a dataset"
+sslam_suite_refuses("a sequence without a path" "line 1: ..sequence.. has no path: expected a dataset"
                     "[[sequence]]\nname = \"a\"\n")
-sslam_suite_refuses("no sequence" "names no sequence. it wants at least one ..sequence.. with a path" "name = \"empty\"\n")
-sslam_suite_refuses("one bracket" "line 1: sequence in the suite: wants a table with two brackets" "[sequence]\npath = \"images\"\n")
-sslam_suite_refuses("a number for a path" "line 2: path in ..sequence..: wants text in quotes" "[[sequence]]\npath = 3\n")
+sslam_suite_refuses("no sequence" "names no sequence. expected at least one ..sequence.. with a path" "name = \"empty\"\n")
+sslam_suite_refuses("one bracket" "line 1: sequence in the suite: expected a table with two brackets" "[sequence]\npath = \"images\"\n")
+sslam_suite_refuses("a number for a path" "line 2: path in ..sequence..: expected text in quotes" "[[sequence]]\npath = 3\n")
 sslam_suite_refuses("a missing camera" "line 2: ..sequence..: [^\n]*none.yaml: no such camera file" "${sequence}camera = \"none.yaml\"\n")
 sslam_suite_refuses("a flawed ground truth" "line 2: ..sequence..: [^\n]*flawed.txt: line 1: expected 8 numbers"
                     "${sequence}truth = \"flawed.txt\"\n")
@@ -38,12 +38,12 @@ sslam_suite_refuses("an unknown preset" "line 4: ..method..: --preset papers: no
                     "${sequence}[[method]]\npreset = \"papers\"\n")
 sslam_suite_refuses("an unknown parameter" "line 4: ..method..: --set keyframes.min_gab: no such parameter"
                     "${sequence}[[method]]\nset = {keyframes.min_gab = 3}\n")
-sslam_suite_refuses("text for a parameter" "line 4: min_gap in set: wants a number"
+sslam_suite_refuses("text for a parameter" "line 4: min_gap in set: expected a number"
                     "${sequence}[[method]]\nset = {keyframes.min_gap = \"3\"}\n")
 sslam_suite_refuses("unknown normals" "line 4: ..method..: --normals dpeth: not known" "${sequence}[[method]]\nnormals = \"dpeth\"\n")
 sslam_suite_refuses("depth that is not there" "line 4: ..method..: --normals depth: [^\n]* has no depth images"
                     "${sequence}[[method]]\nnormals = \"depth\"\n")
-sslam_suite_refuses("a negative seed" "line 1: seeds in the suite: wants a whole number from 0 on" "seeds = [1, -2]\n${sequence}")
+sslam_suite_refuses("a negative seed" "line 1: seeds in the suite: expected a whole number from 0 on" "seeds = [1, -2]\n${sequence}")
 sslam_suite_refuses("a seed twice" "line 1: seeds in the suite: 1 stands there twice" "seeds = [1, 1]\n${sequence}")
 sslam_suite_refuses("a share above one" "line 1: min_tracked in the suite: is out of range" "min_tracked = 50\n${sequence}")
 sslam_suite_refuses("a reference to another sequence" "line 5: 'image' is not a key of trajectories of ..reference... did you mean 'images'"
@@ -68,7 +68,7 @@ sslam_cli_test(NAME "batch of a wrong shard" ARGS batch ${folder}/fine.toml --sh
 sslam_cli_test(NAME "batch of no job" ARGS batch ${folder}/fine.toml --jobs 0 CODE 2 ERR "--jobs")
 sslam_cli_test(NAME "batch merge of nothing" ARGS batch merge CODE 2 ERR "^sslam: error: FOLDERS is required")
 sslam_cli_test(NAME "batch merge of another folder" ARGS batch merge ${folder}/foreign CODE 1
-               ERR "^sslam: error: [^\n]*foreign: holds no batch.json; wants a folder that .sslam batch. has written to\n$")
+               ERR "^sslam: error: [^\n]*foreign: holds no batch.json; expected a folder that .sslam batch. has written to\n$")
 sslam_cli_test(NAME "batch explains itself" ARGS batch --help OUT "--shard" "--jobs" "merge" "Exit codes: 0 success")
 
 foreach(case Tables Resuming Shards Failures)

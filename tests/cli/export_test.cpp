@@ -143,7 +143,7 @@ TEST_CASE("export refuses what it cannot use with one line") {
   const RoomCopy copy;
   const fs::path& scratch = copy.scratch.path();
   require_refused(export_run(scratch / "nowhere", "--format tum"),
-                  "nowhere: no such folder; wants the one that");
+                  "nowhere: no such folder; expected the one that");
   require_refused(export_run(copy.folder, "--format tum"), "holds no run that can be read");
   REQUIRE(copy.run("--end 2").code == 1);
   for (const char* format : {"tum", "kitti", "ply", "colmap"})

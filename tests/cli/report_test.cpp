@@ -140,7 +140,7 @@ TEST_CASE("a report of what is no run is refused with one line") {
     CHECK(outcome.text.find(what) != std::string::npos);
     CHECK(outcome.text.find('\n') == outcome.text.size() - 1);
   };
-  refused(scratch.path() / "none", "none: no such folder; wants the one that");
+  refused(scratch.path() / "none", "none: no such folder; expected the one that");
   refused(scratch.path(), "holds no run that can be read (");
   write(scratch.path() / "file", "");
   refused(scratch.path() / "file", "file: is no folder");

@@ -139,7 +139,7 @@ TEST_CASE("a video that cannot be made is refused before the run") {
     REQUIRE_FALSE(fs::exists(copy.out / "frames.csv"));
   };
   const fs::path& scratch = copy.scratch.path();
-  refused(scratch / "look.xyz", "look.xyz: is no name for a video; it wants to end in .mp4 or .avi");
+  refused(scratch / "look.xyz", "look.xyz: is no name for a video; expected to end in .mp4 or .avi");
   refused(scratch / "look", "look: is no name for a video");
   refused(scratch / "nowhere/look.mp4", "look.mp4: cannot write: No such file or directory");
   fs::create_directory(scratch / "folder.mp4");

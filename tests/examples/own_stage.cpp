@@ -5,10 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "sslam/track/localise/fallback.hpp"
-#include "sslam/track/localise/refinement.hpp"
-#include "sslam/track/mapping/keyframe_choice.hpp"
-#include "sslam/track/pipeline.hpp"
+#include "sslam/track/presets.hpp"
 
 namespace {
 
@@ -18,13 +15,12 @@ struct Gyroscope {
   SO3<double> cam_from_world;  // the latest reading
   double sigma = radians(0.1);
 
-  RotationAnswer<double> rotate(TrackedFrame<double>& frame, const SO3<double>&, bool) const {
-    frame.manhattan = {cam_from_world, Mat3<double>::Identity() * sigma * sigma};
-    return {.axes_seen = 0, .trusted = true};
+  RotationAnswer<double> rotate(const Frame<double>&, const SO3<double>&, const KnownAxes<double>&) const {
+    const Mat3<double> covariance = Mat3<double>::Identity() * sigma * sigma;
+    return {.seen = {{.rotation = {cam_from_world, covariance}, .certain = true}}};
   }
-  [[nodiscard]] std::vector<SO3<double>> world_from_manhattan() const { return {}; }  // has none
   void lose() {}
-  void reset(const std::vector<SO3<double>>&) {}
+  void forget() {}
 };
 static_assert(RotationStage<Gyroscope, double>);
 
@@ -49,8 +45,10 @@ struct FixedMap {
 };
 static_assert(MappingStage<FixedMap, double>);
 
-using Localiser = Pipeline<double, Gyroscope, Survey, DecoupledTranslation<double>, NoFallback<double>,
-                           NoRefinement<double>, NoKeyframes<double>, FixedMap>;
+// Tracking from frame to frame, with the stages above in place of its own.
+using Localiser = presets::With<presets::Odometry<double>, slots::Rotation<Gyroscope>,
+                                slots::Initialisation<Survey>, slots::Fallback<NoFallback<double>>,
+                                slots::Keyframes<NoKeyframes<double>>, slots::Mapping<FixedMap>>;
 
 std::vector<Vec3<double>> make_markers() {
   std::vector<Vec3<double>> markers;

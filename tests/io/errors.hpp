@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "support/catch.hpp"
 
 namespace sslam::testing {
 
-// The message of the io::Error that `action` throws; empty when it throws none.
+// The message of the Error that `action` throws; empty when it throws none.
 template <class Action>
 [[nodiscard]] std::string error_of(Action action) {
   try {
     action();
-  } catch (const io::Error& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return {};

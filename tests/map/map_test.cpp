@@ -14,9 +14,8 @@ using namespace sslam;
 Keyframe<double> bare_keyframe(std::size_t features) {
   Keyframe<double> kf;
   kf.frame.points.resize(features);
-  kf.point_landmarks.assign(features, kNone);
   for (auto& p : kf.frame.points) p.pixel.setZero();
-  return kf;
+  return std::move(kf).seeing(std::vector<LandmarkId>(features, kNone), {});
 }
 
 // Three keyframes; point 0 is seen by all, point 1 by the first two.
@@ -87,9 +86,7 @@ TEST_CASE("Fusion hands observations over and keeps one for each keyframe") {
 TEST_CASE("A keyframe that joins with matches enters them and drops dead ones") {
   Map<double> map = small_map();
   map.erase_point(1);
-  Keyframe<double> kf = bare_keyframe(4);
-  kf.point_landmarks = {0, 1, kNone, kNone};
-  const KeyframeId id = map.add_keyframe(std::move(kf));
+  const KeyframeId id = map.add_keyframe(bare_keyframe(4).seeing({0, 1, kNone, kNone}, {}));
   REQUIRE(map.points[0].observations.back().keyframe == id);
   REQUIRE(map.keyframes[map.index(id)].point_landmarks[1] == kNone);
 }

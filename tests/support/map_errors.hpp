@@ -93,11 +93,9 @@ template <Scalar S>
       kf.frame.lines.back().sigma = float(f.sigma);
     }
     kf.cam_from_world = from.cam_from_world.cast<float>();
-    kf.point_landmarks = from.point_landmarks;
-    kf.line_landmarks = from.line_landmarks;
     kf.line_axes = from.line_axes;
     kf.manhattan = {from.manhattan->cam_from_world.cast<float>(), from.manhattan->covariance.cast<float>()};
-    out.add_keyframe(std::move(kf));
+    out.add_keyframe(std::move(kf).seeing(from.point_landmarks, from.line_landmarks));
   }
   for (auto& p : out.points) p.alive = !p.observations.empty();
   for (auto& l : out.lines) l.alive = !l.observations.empty();

@@ -72,12 +72,15 @@ class MapScene {
     kf.frame.width = 640;
     kf.frame.height = 480;
     kf.frame.index = static_cast<std::int64_t>(k);
-    for (std::size_t i = 0; i < points.size(); ++i) see_point(kf, poses[k], i);
-    for (std::size_t i = 0; i < lines.size(); ++i) see_line(kf, poses[k], i);
+    std::vector<LandmarkId> seen_points, seen_lines;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (see_point(kf, poses[k], i)) seen_points.push_back(static_cast<LandmarkId>(i));
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (see_line(kf, poses[k], i)) seen_lines.push_back(static_cast<LandmarkId>(i));
     kf.manhattan = RotationObservation<double>{
         SO3<double>::exp(gaussian_vector<3>(random_) * options_.rotation_noise) * poses[k].rotation,
         Mat3<double>::Identity() * options_.rotation_noise * options_.rotation_noise};
-    return kf;
+    return std::move(kf).seeing(std::move(seen_points), std::move(seen_lines));
   }
 
   // Enters the room's six sides into the map as planes, with what stands on them as members; a line in a
@@ -124,24 +127,24 @@ class MapScene {
     return uv.x() > 0 && uv.y() > 0 && uv.x() < kf.frame.width && uv.y() < kf.frame.height;
   }
 
-  void see_point(Keyframe<double>& kf, const SE3<double>& pose, std::size_t i) {
+  bool see_point(Keyframe<double>& kf, const SE3<double>& pose, std::size_t i) {
     const Vec3<double> in_camera = pose * points[i];
-    if (!inside(kf, in_camera)) return;
+    if (!inside(kf, in_camera)) return false;
     PointFeature<double> f;
     f.sigma = options_.pixel_noise;
     f.pixel = kf.frame.pinhole.project(in_camera);
     f.pixel += gaussian_vector<2>(random_) * options_.pixel_noise;
     kf.frame.points.push_back(f);
-    kf.point_landmarks.push_back(static_cast<LandmarkId>(i));
+    return true;
   }
 
   // Endpoints slide along the segment by some pixels, as a detector's do.
-  void see_line(Keyframe<double>& kf, const SE3<double>& pose, std::size_t i) {
+  bool see_line(Keyframe<double>& kf, const SE3<double>& pose, std::size_t i) {
     const Vec3<double> a = pose * lines[i].start, b = pose * lines[i].end;
-    if (!inside(kf, a) || !inside(kf, b)) return;
+    if (!inside(kf, a) || !inside(kf, b)) return false;
     const Vec2<double> p = kf.frame.pinhole.project(a), q = kf.frame.pinhole.project(b);
     const double length = (q - p).norm();
-    if (length < 20) return;
+    if (length < 20) return false;
     const Vec2<double> along = (q - p) / length, across(-along.y(), along.x());
     const double slide = std::min(5.0, 0.1 * length);
     LineFeature<double> f;
@@ -151,8 +154,8 @@ class MapScene {
     f.segment.start = p + slides[0] * along + noise[0] * across;
     f.segment.end = q - slides[1] * along + noise[1] * across;
     kf.frame.lines.push_back(f);
-    kf.line_landmarks.push_back(static_cast<LandmarkId>(i));
     kf.line_axes.push_back(lines[i].axis);
+    return true;
   }
 
   MapSceneOptions options_;

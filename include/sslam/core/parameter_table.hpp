@@ -36,13 +36,13 @@ struct ParameterOrder {
   std::string_view low, high, otherwise;
 };
 
-enum class ParameterFault : std::uint8_t { kNone, kUnknown, kNotFinite, kNotWhole, kOutOfRange, kDisordered };
+enum class ParameterFault : std::uint8_t { kFine, kUnknown, kNotFinite, kNotWhole, kOutOfRange, kDisordered };
 
 struct ParameterAnswer {
-  ParameterFault fault = ParameterFault::kNone;
+  ParameterFault fault = ParameterFault::kFine;
   std::string message;  // of a fault: the parameter's name, and what is wrong
 
-  [[nodiscard]] bool ok() const noexcept { return fault == ParameterFault::kNone; }
+  [[nodiscard]] bool ok() const noexcept { return fault == ParameterFault::kFine; }
 };
 
 class ParameterTable {

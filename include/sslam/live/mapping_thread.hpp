@@ -130,9 +130,12 @@ class MappingThread {
 
 template <Scalar S, MappingStage<S> Mapping, LoopStage<S> Loops>
 using ThreadedUpkeep = DeferredUpkeep<S, MappingThread<S, Mapping, Loops>>;
+static_assert(UpkeepStage<ThreadedUpkeep<double, KeyframeMapping<double>, NoLoopClosing<double>>, double,
+                          KeyframeMapping<double>, NoLoopClosing<double>>);
 
 // The preset of the same name, for live use.
 template <Scalar S, StageTimer Timer = NoTimer>
-using Structure = presets::Structure<S, Timer, ThreadedUpkeep<S, presets::BundleMapping<S>, LoopClosing<S>>>;
+using Structure = presets::With<presets::Structure<S, Timer>,
+                                slots::Upkeep<ThreadedUpkeep<S, presets::BundleMapping<S>, LoopClosing<S>>>>;
 
 }  // namespace sslam::live

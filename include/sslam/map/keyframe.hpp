@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sslam/geometry/se3.hpp"
@@ -28,16 +29,24 @@ struct Keyframe {
   KeyframeId id = kNone;
   Frame<S> frame;
   SE3<S> cam_from_world;
-  std::vector<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
-  std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
-  std::vector<std::int8_t> line_axes;       // number of each line's Manhattan axis, or kNone
+  MapList<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
+  MapList<LandmarkId> line_landmarks;   // one for each frame.lines
+  std::vector<std::int8_t> line_axes;   // number of each line's Manhattan axis, or kNone
   std::optional<RotationObservation<S>> manhattan;
   std::vector<Neighbour> neighbours;  // covisibility, most shared first
-  // Of a keyframe that was removed as redundant: who carries its place on. Nothing else is left of it.
+  // Of a keyframe that was removed as redundant: its parent in the spanning tree, relative to which its pose
+  // is kept. Nothing else is left of it.
   KeyframeId parent = kNone;
   SE3<S> cam_from_parent;
 
   [[nodiscard]] bool alive() const noexcept { return parent == kNone; }
+
+  // The same, which is yet to join a map and sees these landmarks of it.
+  [[nodiscard]] Keyframe seeing(std::vector<LandmarkId> points, std::vector<LandmarkId> lines) && {
+    point_landmarks.values_ = std::move(points);
+    line_landmarks.values_ = std::move(lines);
+    return std::move(*this);
+  }
 };
 
 }  // namespace sslam

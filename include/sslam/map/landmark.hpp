@@ -10,6 +10,7 @@
 #include "sslam/core/descriptor.hpp"
 #include "sslam/geometry/line3.hpp"
 #include "sslam/geometry/plane3.hpp"
+#include "sslam/map/map_list.hpp"
 
 namespace sslam {
 
@@ -31,7 +32,7 @@ struct Observation {
 // What points and lines have in common.
 struct LandmarkCommon {
   Descriptor descriptor;  // of the most recent keyframe that observes it
-  std::vector<Observation> observations;
+  MapList<Observation> observations;
   KeyframeId first_keyframe = kNone;  // that created it
   std::int32_t visible = 0;           // frames in which it should have been seen
   std::int32_t found = 0;             // frames in which it was

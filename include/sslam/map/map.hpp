@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/move_to_end.hpp"
 #include "sslam/map/covisibility.hpp"
 #include "sslam/map/free_ids.hpp"
+#include "sslam/map/id_shift.hpp"
 #include "sslam/map/keyframe.hpp"
 #include "sslam/map/manhattan_axes.hpp"
 
@@ -38,8 +40,8 @@ class Map {
     keyframe.id = id;
     keyframes.push_back(std::move(keyframe));
     Keyframe<S>& kf = keyframes.back();
-    enter(kf.point_landmarks, points, id);
-    enter(kf.line_landmarks, lines, id);
+    enter(kf.point_landmarks.values_, points, id);
+    enter(kf.line_landmarks.values_, lines, id);
     for (std::size_t i = 0; i < kf.point_landmarks.size(); ++i)
       if (kf.point_landmarks[i] != kNone) renew_point(kf.point_landmarks[i], kf, i);
     for (std::size_t i = 0; i < kf.line_landmarks.size(); ++i)
@@ -74,16 +76,16 @@ class Map {
 
   void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
     Keyframe<S>& kf = keyframes[index(keyframe)];
-    kf.point_landmarks[feature] = id;
-    points[index(id)].observations.push_back({keyframe, static_cast<std::int32_t>(feature)});
+    kf.point_landmarks.values_[feature] = id;
+    points[index(id)].observations.values_.push_back({keyframe, static_cast<std::int32_t>(feature)});
     renew_point(id, kf, feature);
   }
 
   void observe_line(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
     Keyframe<S>& kf = keyframes[index(keyframe)];
-    kf.line_landmarks[feature] = id;
+    kf.line_landmarks.values_[feature] = id;
     LineLandmark<S>& line = lines[index(id)];
-    line.observations.push_back({keyframe, static_cast<std::int32_t>(feature)});
+    line.observations.values_.push_back({keyframe, static_cast<std::int32_t>(feature)});
     line.descriptor = kf.frame.lines[feature].descriptor;
     if (line.axis == kNone) line.axis = kf.line_axes.empty() ? std::int8_t{kNone} : kf.line_axes[feature];
   }
@@ -100,6 +102,26 @@ class Map {
     for (auto& line : lines)
       if (line.plane == id) line.plane = kNone;
     free_planes_.add(id);
+  }
+
+  // Takes over all of another map; its ids follow those of this one.
+  IdShift append(Map other) {
+    const IdShift shift{static_cast<std::int32_t>(keyframes.size()), static_cast<std::int32_t>(points.size()),
+                        static_cast<std::int32_t>(lines.size()), static_cast<std::int32_t>(planes.size())};
+    for (Keyframe<S>& kf : other.keyframes) {
+      IdShift::apply(kf.id, shift.keyframes);
+      IdShift::apply(kf.parent, shift.keyframes);
+      for (Neighbour& n : kf.neighbours) n.keyframe += shift.keyframes;
+      shift.apply_to_matches(kf.point_landmarks.values_, kf.line_landmarks.values_);
+    }
+    for (auto& point : other.points) move_ids(point, shift);
+    for (auto& line : other.lines) move_ids(line, shift);
+    move_to_end(other.keyframes, keyframes);
+    move_to_end(other.points, points);
+    move_to_end(other.lines, lines);
+    move_to_end(other.planes, planes);
+    collect_free_ids();
+    return shift;
   }
 
   // Finds the ids that can be given away in landmarks that were filled in from outside.
@@ -136,8 +158,8 @@ class Map {
       for (const LandmarkId landmark : seen)
         if (landmark != kNone) forget(landmark);
     };
-    forget_all(keyframes[index(id)].point_landmarks, [&](LandmarkId p) { forget_point(p, id); });
-    forget_all(keyframes[index(id)].line_landmarks, [&](LandmarkId l) { forget_line(l, id); });
+    forget_all(keyframes[index(id)].point_landmarks.values_, [&](LandmarkId p) { forget_point(p, id); });
+    forget_all(keyframes[index(id)].line_landmarks.values_, [&](LandmarkId l) { forget_line(l, id); });
     Keyframe<S>& kf = keyframes[index(id)];
     for (const Neighbour& n : kf.neighbours) set_neighbour(keyframes[index(n.keyframe)].neighbours, {id, 0});
     Keyframe<S> rest;
@@ -175,13 +197,19 @@ class Map {
   }
 
  private:
+  static void move_ids(LandmarkCommon& landmark, const IdShift& shift) {
+    for (Observation& o : landmark.observations.values_) o.keyframe += shift.keyframes;
+    IdShift::apply(landmark.first_keyframe, shift.keyframes);
+    IdShift::apply(landmark.plane, shift.planes);
+  }
+
   template <class Landmarks>
   static void enter(std::vector<LandmarkId>& seen, Landmarks& landmarks, KeyframeId keyframe) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i] == kNone) continue;
       auto& landmark = landmarks[index(seen[i])];
       if (landmark.alive)
-        landmark.observations.push_back({keyframe, static_cast<std::int32_t>(i)});
+        landmark.observations.values_.push_back({keyframe, static_cast<std::int32_t>(i)});
       else
         seen[i] = kNone;
     }
@@ -203,11 +231,11 @@ class Map {
     auto& landmark = landmarks[index(id)];
     if (!landmark.alive) return;
     for (const Observation& o : landmark.observations) {
-      LandmarkId& slot = (keyframes[index(o.keyframe)].*seen)[index(o.feature)];
+      LandmarkId& slot = (keyframes[index(o.keyframe)].*seen).values_[index(o.feature)];
       if (slot == id) slot = kNone;
     }
-    landmark.observations.clear();
-    landmark.observations.shrink_to_fit();
+    landmark.observations.values_.clear();
+    landmark.observations.values_.shrink_to_fit();
     landmark.plane = kNone;
     landmark.alive = false;
     free.add(id);
@@ -216,18 +244,18 @@ class Map {
   // True when too few observations are left.
   template <class Landmarks, class Member>
   [[nodiscard]] bool forget(Landmarks& landmarks, LandmarkId id, KeyframeId keyframe, Member seen) {
-    auto& observations = landmarks[index(id)].observations;
+    auto& observations = landmarks[index(id)].observations.values_;
     const auto gone = std::find_if(observations.begin(), observations.end(),
                                    [&](const Observation& o) { return o.keyframe == keyframe; });
     if (gone == observations.end()) return false;
-    (keyframes[index(keyframe)].*seen)[index(gone->feature)] = kNone;
+    (keyframes[index(keyframe)].*seen).values_[index(gone->feature)] = kNone;
     observations.erase(gone);
     return observations.size() < 2;
   }
 
   template <class Landmarks, class Observe>
   void hand_over(Landmarks& landmarks, LandmarkId from, LandmarkId into, Observe observe) {
-    const std::vector<Observation> moved = landmarks[index(from)].observations;
+    const std::vector<Observation> moved = landmarks[index(from)].observations.values_;
     for (const Observation& o : moved) {
       const auto& has = landmarks[index(into)].observations;
       if (std::none_of(has.begin(), has.end(),

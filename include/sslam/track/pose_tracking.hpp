@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/contract/stage_timer.hpp"
 #include "sslam/track/localise/frame_history.hpp"
 #include "sslam/track/localise/motion_model.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
@@ -16,17 +15,16 @@ namespace sslam {
 
 // The part of the pipeline that changes nothing of the map but its Manhattan frames and its landmarks'
 // counts.
-template <Scalar S, RotationStage<S> Rotation, TranslationStage<S> Translation, FallbackStage<S> Fallback,
-          RefinementStage<S> Refinement, StageTimer Timer>
+template <Scalar S, StageSet<S> Stages>
 class PoseTracking {
  public:
-  Rotation rotation;
-  Translation translation;
-  Fallback fallback;
-  Refinement refinement;
+  typename Stages::Rotation rotation;
+  typename Stages::Translation translation;
+  typename Stages::Fallback fallback;
+  typename Stages::Refinement refinement;
   ConstantVelocity<S> motion;
   Relocalisation<S> relocalisation;
-  Timer timer;
+  typename Stages::Timer timer;
 
  protected:
   RotationAnswer<S> rotate(const SO3<S>& predicted, Map<S>& map, TrackedFrame<S>& frame,
@@ -41,10 +39,12 @@ class PoseTracking {
     const SE3<S> predicted = motion.predict(result.stamp);
     const RotationAnswer<S> answer = rotate(predicted.rotation, world.map, frame, result);
     std::optional<RotationPrior<S>> prior;
-    if (frame.manhattan)
-      prior = RotationPrior<S>{frame.manhattan->cam_from_world, frame.manhattan->covariance.inverse()};
+    if (answer.seen) {
+      const RotationObservation<S>& seen = answer.seen->rotation;
+      prior = RotationPrior<S>{seen.cam_from_world, seen.covariance.inverse()};
+    }
     result.reason = Reason::kNoManhattanFrame;
-    if (answer.trusted) {
+    if (answer.trusted()) {
       const PoseEstimate<S> estimate = track_decoupled(predicted, *prior, world.map, frame);
       if (estimate.ok()) {
         result.state = State::kManhattan;
@@ -62,8 +62,8 @@ class PoseTracking {
   // The frame's place in a world, if it is found there; the world's cursor then refers to it. Where the
   // Manhattan frame is seen, the pose must agree with it: a place that only looks the same is rarely seen
   // from a direction that fits.
-  PoseEstimate<S> recognise(World<S>& world, Rotation& rotation_there, const MapTrial<S>& trial,
-                            TrackedFrame<S>& frame, TrackResult<S>& result) {
+  PoseEstimate<S> recognise(World<S>& world, typename Stages::Rotation& rotation_there,
+                            const MapTrial<S>& trial, TrackedFrame<S>& frame, TrackResult<S>& result) {
     KeyframeId place = world.cursor.reference();
     const auto agrees = [&] {
       timer.end(Stage::kFallback);
@@ -78,10 +78,12 @@ class PoseTracking {
   }
 
  private:
-  RotationAnswer<S> rotate_by(Rotation& stage, const SO3<S>& predicted, Map<S>& map, TrackedFrame<S>& frame,
-                              TrackResult<S>& result) {
-    const RotationAnswer<S> answer = stage.rotate(frame, predicted, !map.empty());
-    map.world_from_manhattan = stage.world_from_manhattan();
+  RotationAnswer<S> rotate_by(typename Stages::Rotation& stage, const SO3<S>& predicted, Map<S>& map,
+                              TrackedFrame<S>& frame, TrackResult<S>& result) {
+    const RotationAnswer<S> answer =
+        stage.rotate(frame.frame, predicted, {map.world_from_manhattan, !map.empty()});
+    if (answer.discovered) map.world_from_manhattan.push_back(*answer.discovered);
+    frame.take(answer, map.world_from_manhattan);
     result.axes_seen = answer.axes_seen;
     timer.end(Stage::kRotation);
     return answer;
@@ -91,7 +93,7 @@ class PoseTracking {
   PoseEstimate<S> track_decoupled(const SE3<S>& predicted, const RotationPrior<S>& prior, Map<S>& map,
                                   TrackedFrame<S>& frame) {
     const Vec3<S> centre = predicted.inverse().translation;
-    const SO3<S>& turned = frame.manhattan->cam_from_world;
+    const SO3<S>& turned = prior.cam_from_world;
     frame.cam_from_world = {turned, -(turned * centre)};
     const PoseEstimate<S> estimate = translation.translate(map, recent_, frame);
     timer.end(Stage::kTranslation);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blessed combinations of stages. An ablation is an alias: the same pipeline with a null model in one place.
+// Blessed sets of stages. An ablation is an alias: the same pipeline with a null model in one slot.
 #pragma once
 
 #include "sslam/map/map_adjustment.hpp"
@@ -13,36 +13,51 @@
 #include "sslam/track/mapping/keyframe_choice.hpp"
 #include "sslam/track/mapping/mapping.hpp"
 #include "sslam/track/pipeline.hpp"
+#include "sslam/track/slots.hpp"
+#include "sslam/track/upkeep/immediate_upkeep.hpp"
 
 namespace sslam::presets {
+
+// The pipeline with one stage replaced, or more: With<Structure<double>, slots::Rotation<Gyroscope>>.
+template <class Preset, class... Slots>
+using With =
+    Pipeline<typename Preset::ScalarType, typename detail::Replaced<typename Preset::Stages, Slots...>::Type>;
 
 // Bundle adjustment around each new keyframe, with planes where a Manhattan frame is known.
 template <Scalar S>
 using BundleMapping = KeyframeMapping<S, MapAdjustment<S, BundleSolver<S>>, ManhattanPlanes<S>>;
 
+template <Scalar S, StageTimer Clock>
+struct StructureStages {
+  using Rotation = ManhattanRotation<S>;
+  using Initialisation = DecoupledInitialisation<S>;
+  using Translation = DecoupledTranslation<S>;
+  using Fallback = FeatureFallback<S>;
+  using Refinement = LocalMapRefinement<S>;
+  using Keyframes = SharedFeatureKeyframes<S>;
+  using Mapping = BundleMapping<S>;
+  using Loops = LoopClosing<S>;
+  using Upkeep = ImmediateUpkeep<S>;
+  using Timer = Clock;
+};
+
 // Decoupled tracking with the Manhattan frame, fallback, refinement against the local map, local bundle
 // adjustment, loop closing.
-template <Scalar S, StageTimer Timer = NoTimer, class Upkeep = ImmediateUpkeep<S>>
-using Structure = Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>,
-                           FeatureFallback<S>, LocalMapRefinement<S>, SharedFeatureKeyframes<S>,
-                           BundleMapping<S>, LoopClosing<S>, Timer, Upkeep>;
+template <Scalar S, StageTimer Timer = NoTimer>
+using Structure = Pipeline<S, StructureStages<S, Timer>>;
 
 // The same as published (Li et al. 2020): landmarks stay as they were triangulated.
 template <Scalar S, StageTimer Timer = NoTimer>
-using Paper =
-    Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
-             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, KeyframeMapping<S>, NoLoopClosing<S>, Timer>;
+using Paper = With<Structure<S, Timer>, slots::Mapping<KeyframeMapping<S>>, slots::Loops<NoLoopClosing<S>>>;
 
 // No Manhattan world: points and lines alone.
 template <Scalar S, StageTimer Timer = NoTimer>
 using Features =
-    Pipeline<S, NoRotation<S>, DecoupledInitialisation<S>, NoTranslation<S>, FeatureFallback<S>,
-             LocalMapRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, LoopClosing<S>, Timer>;
+    With<Structure<S, Timer>, slots::Rotation<NoRotation<S>>, slots::Translation<NoTranslation<S>>>;
 
 // Frame to frame, without refinement against the local map.
 template <Scalar S, StageTimer Timer = NoTimer>
 using Odometry =
-    Pipeline<S, ManhattanRotation<S>, DecoupledInitialisation<S>, DecoupledTranslation<S>, FeatureFallback<S>,
-             NoRefinement<S>, SharedFeatureKeyframes<S>, BundleMapping<S>, NoLoopClosing<S>, Timer>;
+    With<Structure<S, Timer>, slots::Refinement<NoRefinement<S>>, slots::Loops<NoLoopClosing<S>>>;
 
 }  // namespace sslam::presets

@@ -121,10 +121,10 @@ def check_refusals(program, scratch):
 
 
 def check_input(program, scratch):
-    refused(program, "view", scratch / "none", words="none: no such file or folder; wants the folder of a run or a map.sslam")
+    refused(program, "view", scratch / "none", words="none: no such file or folder; expected the folder of a run or a map.sslam")
     refused(program, "view", scratch, words="holds no run that can be read")
     (scratch / "report.html").write_text("<html>")
-    refused(program, "view", scratch / "report.html", words="report.html: is no map; wants a map.sslam")
+    refused(program, "view", scratch / "report.html", words="report.html: is no map; expected a map.sslam")
     refused(program, "view", words="path is required", code=2)
     refused(program, "view", scratch, "--port", 65536, words="--port", code=2)
     refused(program, "run", scratch, "--port", 8080, words="--port requires --view", code=2)

@@ -29,8 +29,7 @@ Keyframe<double> keyframe_at(const Vec3<double>& centre, const Vec3<double>& tur
     feature.pixel = keyframe.frame.pinhole.project(keyframe.cam_from_world * place);
     keyframe.frame.points.push_back(feature);
   }
-  keyframe.point_landmarks.assign(keyframe.frame.points.size(), kNone);
-  return keyframe;
+  return std::move(keyframe).seeing(std::vector<LandmarkId>(std::size(kPlaces), kNone), {});
 }
 
 Map<double> small_map() {
@@ -83,7 +82,7 @@ TEST_CASE("a COLMAP model of nothing is a model, and one that cannot be written 
   const ScratchFolder scratch;
   CHECK(io::write_colmap_model(scratch.path(), {}, {}).images == 0);
   CHECK(read_model(scratch.path()).images.empty());
-  CHECK_THROWS_AS(io::write_colmap_model(scratch.path() / "nowhere", {}, {}), io::Error);
+  CHECK_THROWS_AS(io::write_colmap_model(scratch.path() / "nowhere", {}, {}), Error);
 }
 
 TEST_CASE("KITTI's rows are the upper rows of camera to world") {

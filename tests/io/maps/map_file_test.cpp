@@ -64,16 +64,16 @@ TEST_CASE("A map file that is cut off or changed anywhere is refused") {
   const std::string good = text_of(path);
   for (const std::size_t length : {good.size() - 1, good.size() / 2, std::size_t{29}, std::size_t{12}}) {
     folder.write("a.sslam", good.substr(0, length));
-    REQUIRE_THROWS_AS(io::load_map(path), io::Error);
+    REQUIRE_THROWS_AS(io::load_map(path), Error);
   }
   folder.write("a.sslam", good + "x");
-  REQUIRE_THROWS_AS(io::load_map(path), io::Error);
+  REQUIRE_THROWS_AS(io::load_map(path), Error);
   for (std::size_t at = 0; at < good.size(); at += good.size() / 97) {
     std::string bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 16);
     folder.write("a.sslam", bad);
     INFO("byte " << at);
-    REQUIRE_THROWS_AS(io::load_map(path), io::Error);
+    REQUIRE_THROWS_AS(io::load_map(path), Error);
   }
 }
 
@@ -99,15 +99,15 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
     Map<double> map = room_map();
     spoil(map);
     io::save_map(path, map);
-    REQUIRE_THROWS_AS(io::load_map(path), io::Error);
+    REQUIRE_THROWS_AS(io::load_map(path), Error);
   };
-  refused([](auto& m) { m.keyframes[3].point_landmarks[0] = 100000; });
-  refused([](auto& m) { m.keyframes[3].point_landmarks.pop_back(); });
+  refused([](auto& m) { MapDoor::open(m.keyframes[3].point_landmarks)[0] = 100000; });
+  refused([](auto& m) { MapDoor::open(m.keyframes[3].point_landmarks).pop_back(); });
   const auto seen = [](auto& m) -> auto& {
     return *std::find_if(m.points.begin(), m.points.end(), [](auto& p) { return !p.observations.empty(); });
   };
-  refused([&](auto& m) { seen(m).observations[0].keyframe = -2; });
-  refused([&](auto& m) { seen(m).observations[0].feature = 100000; });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].keyframe = -2; });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].feature = 100000; });
   refused([&](auto& m) { seen(m).position.x() = std::nan(""); });
   refused([](auto& m) { m.keyframes[3].parent = 4; });  // a ring: 4 went to 3
   refused([](auto& m) { m.keyframes[0].parent = 1; });

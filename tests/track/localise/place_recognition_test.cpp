@@ -32,8 +32,7 @@ Map<double> three_places(Random& random) {
     for (int k = 0; k < 2; ++k) {
       Keyframe<double> keyframe;
       keyframe.frame.points = points;
-      keyframe.point_landmarks.assign(kPoints, kNone);
-      map.add_keyframe(keyframe);
+      map.add_keyframe(std::move(keyframe).seeing(std::vector<LandmarkId>(kPoints, kNone), {}));
     }
     for (std::size_t i = 0; i < kPoints; ++i) {
       const LandmarkId id = map.add_point({0, 0, 5}, 2 * place);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/track/localise/rotation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
@@ -11,6 +13,8 @@ namespace {
 
 using namespace sslam;
 using namespace sslam::testing;
+
+const std::vector<SO3<double>> kWorldAxes{SO3<double>()};
 
 // Two walls and the floor as a network sees them: little scatter, but each plane is off by its own
 // `bias_deg`.
@@ -27,14 +31,12 @@ void add_biased_planes(NormalField& field, const SO3<double>& cam_from_world, do
   }
 }
 
-TrackedFrame<double> frame_with_normals(Simulation& simulation, double bias_deg, double plane_sigma_deg,
-                                        Random& random) {
-  TrackedFrame<double> tracked;
+Frame<double> frame_with_normals(Simulation& simulation, double bias_deg, double plane_sigma_deg,
+                                 Random& random) {
   Frame<double> frame = simulation.frame(0);
   add_biased_planes(frame.normals, simulation.truth(0).rotation, bias_deg, random);
   frame.normals.plane_sigma = static_cast<float>(radians(plane_sigma_deg));
-  tracked.adopt(frame);
-  return tracked;
+  return frame;
 }
 
 double standard_deviation(const RotationObservation<double>& observation) {
@@ -47,18 +49,16 @@ TEST_CASE("What the normals of a plane get wrong together is not averaged away")
   Simulation simulation(walk(1));
   Random random(3);
   for (int trial = 0; trial < 10; ++trial) {
-    TrackedFrame<double> frame = frame_with_normals(simulation, 5, 5, random);
-    frame.frame.lines.clear();
-    frame.line_axes.clear();
+    Frame<double> frame = frame_with_normals(simulation, 5, 5, random);
+    frame.lines.clear();
     ManhattanRotation<double> stage;
-    stage.reset({SO3<double>()});
-    const auto answer = stage.rotate(frame, simulation.truth(0).rotation, true);
+    const auto answer = stage.rotate(frame, simulation.truth(0).rotation, {kWorldAxes, true});
     CHECK(answer.axes_seen >= 2);
-    CHECK(!answer.trusted);
-    REQUIRE(frame.manhattan);
-    CHECK(standard_deviation(*frame.manhattan) > radians(2.0));
-    const double error = angle_between(frame.manhattan->cam_from_world, simulation.truth(0).rotation);
-    CHECK(error < 4 * standard_deviation(*frame.manhattan));
+    REQUIRE(answer.seen);
+    CHECK_FALSE(answer.trusted());
+    const RotationObservation<double>& seen = answer.seen->rotation;
+    CHECK(standard_deviation(seen) > radians(2.0));
+    CHECK(angle_between(seen.cam_from_world, simulation.truth(0).rotation) < 4 * standard_deviation(seen));
   }
 }
 
@@ -68,12 +68,11 @@ TEST_CASE("Lines decide where normals are known to be off") {
   double told = 0, untold = 0;
   for (int trial = 0; trial < 10; ++trial) {
     for (double* sum : {&told, &untold}) {
-      TrackedFrame<double> frame = frame_with_normals(simulation, 5, sum == &told ? 5 : 0, random);
+      const Frame<double> frame = frame_with_normals(simulation, 5, sum == &told ? 5 : 0, random);
       ManhattanRotation<double> stage;
-      stage.reset({SO3<double>()});
-      CHECK(stage.rotate(frame, simulation.truth(0).rotation, true).trusted);
-      REQUIRE(frame.manhattan);
-      *sum += angle_between(frame.manhattan->cam_from_world, simulation.truth(0).rotation);
+      const auto answer = stage.rotate(frame, simulation.truth(0).rotation, {kWorldAxes, true});
+      REQUIRE(answer.trusted());
+      *sum += angle_between(answer.seen->rotation.cam_from_world, simulation.truth(0).rotation);
     }
   }
   CHECK(told / 10 < radians(1.0));
@@ -83,25 +82,56 @@ TEST_CASE("Lines decide where normals are known to be off") {
 TEST_CASE("A second Manhattan frame gives the same world's rotation, and is known again") {
   const SO3<double> wing = SO3<double>::exp(Vec3<double>(0, radians(35.0), 0));
   ManhattanRotation<double> stage;
-  stage.reset({SO3<double>()});
+  std::vector<SO3<double>> known = kWorldAxes;
   Random random(5);
   // What the camera sees while it turns: the first frame, the wing, the first, the wing.
   int step = 0;
   for (const bool in_wing : {false, true, false, true})
     for (int i = 0; i < 8; ++i, ++step) {
       const SO3<double> cam_from_world = SO3<double>::exp(Vec3<double>(0.1, 0.02 * step, -0.05));
-      TrackedFrame<double> frame;
-      Frame<double> seen;
-      seen.pinhole = Pinhole<double>{500, 500, 320, 240};
-      add_biased_planes(seen.normals, in_wing ? cam_from_world * wing : cam_from_world, 0, random);
-      frame.adopt(seen);
-      const auto answer = stage.rotate(frame, cam_from_world, true);
+      Frame<double> frame;
+      frame.pinhole = Pinhole<double>{500, 500, 320, 240};
+      add_biased_planes(frame.normals, in_wing ? cam_from_world * wing : cam_from_world, 0, random);
+      const auto answer = stage.rotate(frame, cam_from_world, {known, true});
       const bool new_to_it = step >= 8 && step < 10;  // believed at the third sighting
-      CHECK(answer.trusted == !new_to_it);
-      REQUIRE(frame.manhattan.has_value() == !new_to_it);
+      REQUIRE(answer.trusted() == !new_to_it);
+      CHECK(answer.discovered.has_value() == (step == 10));
+      if (answer.discovered) known.push_back(*answer.discovered);
       if (new_to_it) continue;
-      CHECK(frame.manhattan_frame == (in_wing ? 1U : 0U));
-      CHECK(angle_between(frame.manhattan->cam_from_world, cam_from_world) < radians(0.5));
+      CHECK(answer.seen->manhattan_frame == (in_wing ? 1U : 0U));
+      CHECK(angle_between(answer.seen->rotation.cam_from_world, cam_from_world) < radians(0.5));
     }
-  CHECK(stage.world_from_manhattan().size() == 2);
+  CHECK(angle_between(known.back(), wing) < radians(0.5));
+}
+
+TEST_CASE("Before there is a map the first Manhattan frame becomes the axes of the world") {
+  Random random(6);
+  const SO3<double> cam_from_manhattan = SO3<double>::exp(Vec3<double>(0.1, 0.3, -0.05));
+  Frame<double> frame;
+  frame.pinhole = Pinhole<double>{500, 500, 320, 240};
+  add_biased_planes(frame.normals, cam_from_manhattan, 0, random);
+  ManhattanRotation<double> stage;
+  const std::vector<SO3<double>> none;
+  const auto answer = stage.rotate(frame, SO3<double>(), {none, false});
+  REQUIRE(answer.trusted());
+  REQUIRE(answer.discovered);
+  CHECK(angle_between(*answer.discovered, SO3<double>()) == 0);
+  CHECK(answer.seen->manhattan_frame == 0);
+  CHECK(angle_between_frames(answer.seen->rotation.cam_from_world, cam_from_manhattan) < radians(0.5));
+  // In a map that stands, one sighting is not enough.
+  stage.forget();
+  CHECK_FALSE(stage.rotate(frame, SO3<double>(), {none, true}).seen);
+}
+
+TEST_CASE("The axes of lines are those of the Manhattan frame that is seen") {
+  Simulation simulation(walk(1));
+  ManhattanRotation<double> stage;
+  const Frame<double> frame = simulation.frame(0);
+  const auto answer = stage.rotate(frame, simulation.truth(0).rotation, {kWorldAxes, true});
+  REQUIRE(answer.seen);
+  REQUIRE(answer.line_axes.size() == frame.lines.size());
+  CHECK(
+      std::any_of(answer.line_axes.begin(), answer.line_axes.end(), [](auto axis) { return axis != kNone; }));
+  CHECK(std::all_of(answer.line_axes.begin(), answer.line_axes.end(),
+                    [](auto axis) { return axis >= kNone && axis < 3; }));
 }

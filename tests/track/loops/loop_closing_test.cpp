@@ -206,6 +206,6 @@ TEST_CASE("A place that only looks the same is not taken for it") {
 TEST_CASE("A turn of the world that structure rules out closes no loop") {
   Ring ring;
   LoopClosing<double> loops;
-  loops.detection.max_turn = radians(0.1);
+  loops.detection.options.max_turn = radians(0.1);
   CHECK_FALSE(close(loops, ring.map).closed);
 }

@@ -12,9 +12,9 @@ Map<double> map_of_one() {
   Map<double> map;
   Keyframe<double> keyframe;
   keyframe.frame.points.resize(100);
-  keyframe.point_landmarks.assign(100, kNone);
-  map.keyframes.push_back(keyframe);
-  for (std::size_t i = 0; i < 60; ++i) map.keyframes[0].point_landmarks[i] = static_cast<LandmarkId>(i);
+  std::vector<LandmarkId> seen(100, kNone);
+  for (std::size_t i = 0; i < 60; ++i) seen[i] = static_cast<LandmarkId>(i);
+  map.keyframes.push_back(std::move(keyframe).seeing(seen, {}));
   return map;
 }
 

@@ -9,7 +9,8 @@ namespace {
 using namespace sslam;
 using namespace sslam::testing;
 
-using LatePipeline = presets::Structure<double, NoTimer, DeferredUpkeep<double, StepChannel>>;
+using LatePipeline =
+    presets::With<presets::Structure<double>, slots::Upkeep<DeferredUpkeep<double, StepChannel>>>;
 
 // A keyframe gets into the map with every `pause`-th frame.
 std::vector<TrackResult<double>> track_all(LatePipeline& pipeline, Simulation& simulation,

@@ -37,7 +37,7 @@ TEST_CASE("The atlas asks for each of its worlds in turn and knows the largest")
 
 TEST_CASE("The smallest world makes room for one more") {
   Atlas<double> atlas;
-  atlas.most = 2;
+  atlas.options.most = 2;
   for (const int frames : {20, 10, 30}) atlas.lay_aside(world_of(frames, frames));
   REQUIRE(atlas.worlds().size() == 2);
   CHECK(atlas.worlds()[0].number == 20);

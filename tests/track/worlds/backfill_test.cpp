@@ -71,7 +71,7 @@ TEST_CASE("What was lost is tracked backwards from where the camera is found, up
 
 TEST_CASE("A blind frame is passed over, too many in a row end the way back") {
   Backfill<double> backfill;
-  backfill.max_misses = 2;
+  backfill.options.max_misses = 2;
   CHECK(found_after_loss(backfill, {8, 6}) == std::vector<std::int64_t>{9, 7, 5, 4, 3});
   backfill.clear();
   CHECK(found_after_loss(backfill, {5, 6, 7}) == std::vector<std::int64_t>{9, 8});

@@ -46,7 +46,7 @@ TEST_CASE("Where the camera is lost for long a new map is begun and the larger o
   presets::Structure<double> pipeline;
   const auto results = track_all(pipeline, simulation);
   REQUIRE(results[kFirst - 1].world == 0);
-  REQUIRE(count(results, State::kLost) == pipeline.trial.leave_after);
+  REQUIRE(count(results, State::kLost) == pipeline.trial.options.leave_after);
   REQUIRE(results.back().world == 1);
   REQUIRE(results.back().has_pose());
   REQUIRE(pipeline.world() == 1);
@@ -63,7 +63,7 @@ TEST_CASE("Where the camera is lost for long a new map is begun and the larger o
 TEST_CASE("Without an atlas, and in a map that was given, the camera stays lost") {
   Simulation simulation(walk_and_jump());
   presets::Structure<double> alone;
-  alone.atlas.most = 0;
+  alone.atlas.options.most = 0;
   REQUIRE(count(track_all(alone, simulation), State::kLost) == kAway);
   REQUIRE(alone.trajectory().entries().size() == kFirst);
 
@@ -112,7 +112,7 @@ TEST_CASE("Two maps become one where the way leads from one into the other") {
 
 TEST_CASE("Two maps become one while mapping comes late") {
   Simulation simulation(walk_and_return());
-  presets::Structure<double, NoTimer, DeferredUpkeep<double, StepChannel>> pipeline;
+  presets::With<presets::Structure<double>, slots::Upkeep<DeferredUpkeep<double, StepChannel>>> pipeline;
   pipeline.upkeep.channel.max_waiting = 3;
   int joined = 0;
   for (std::size_t k = 0; k < simulation.size(); ++k) {

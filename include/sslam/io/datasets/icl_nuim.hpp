@@ -62,7 +62,7 @@ inline void require_icl_nuim(const std::filesystem::path& root) {
     return;
   throw Error(
       root.string() +
-      ": nothing says what its rgb/N.png are; wants rgb.txt (TUM RGB-D), or *.freiburg, groundtruth.txt "
+      ": nothing says what its rgb/N.png are; expected rgb.txt (TUM RGB-D), or *.freiburg, groundtruth.txt "
       "or associations.txt with frame numbers as stamps (ICL-NUIM); for the images alone name " +
       (root / "rgb").string());
 }

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "sslam/core/error.hpp"
 #include "sslam/geometry/sim3.hpp"
-#include "sslam/io/files/error.hpp"
 
 namespace sslam::io {
 

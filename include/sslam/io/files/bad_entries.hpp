@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::io {
 

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::io {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::io {
 

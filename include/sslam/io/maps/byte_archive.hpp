@@ -9,7 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 
 namespace sslam::io {
 

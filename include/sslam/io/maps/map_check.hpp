@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sslam/io/files/error.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam::io {

@@ -116,8 +116,8 @@ class MapFields {
     fields(kf.frame.points);
     fields(kf.frame.lines);
     fields(kf.cam_from_world);
-    fields(kf.point_landmarks);
-    fields(kf.line_landmarks);
+    fields(MapDoor::open(kf.point_landmarks));
+    fields(MapDoor::open(kf.line_landmarks));
     fields(kf.line_axes);
     fields(kf.manhattan);
     fields(kf.neighbours);
@@ -127,7 +127,7 @@ class MapFields {
 
   void fields_in_common(LandmarkCommon& l) {
     fields(l.descriptor);
-    fields(l.observations);
+    fields(MapDoor::open(l.observations));
     archive_(l.first_keyframe);
     archive_(l.visible);
     archive_(l.found);

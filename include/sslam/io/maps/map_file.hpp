@@ -58,7 +58,7 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
   if (!in || std::filesystem::is_directory(path)) throw Error(path.string() + ": cannot read this map");
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (!std::string_view(bytes).starts_with(detail::kMagic))
-    throw Error(path.string() + ": is no map; wants a map.sslam that `sslam run` has written");
+    throw Error(path.string() + ": is no map; expected a map.sslam that `sslam run` has written");
   try {
     ByteReader head{std::string_view(bytes).substr(detail::kMagic.size())};
     detail::Header header;

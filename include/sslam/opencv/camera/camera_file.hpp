@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "sslam/core/error.hpp"
 #include "sslam/geometry/camera.hpp"
 
 namespace sslam {
@@ -31,7 +31,7 @@ class CameraKeys {
   [[nodiscard]] bool has(const std::string& key) const { return !storage_[key].empty(); }
 
   [[nodiscard]] double required(const std::string& key, const std::string& meaning) const {
-    if (!has(key)) throw std::runtime_error(file_ + ": " + key + " is missing; expected " + meaning);
+    if (!has(key)) throw Error(file_ + ": " + key + " is missing; expected " + meaning);
     return finite(key, meaning);
   }
 
@@ -41,8 +41,8 @@ class CameraKeys {
 
   [[nodiscard]] double positive(const std::string& key, double value, const std::string& meaning) const {
     if (value > 0) return value;
-    throw std::runtime_error(file_ + ": " + key + " is " + short_text(value) + "; expected " + meaning +
-                             ", greater than 0");
+    throw Error(file_ + ": " + key + " is " + short_text(value) + "; expected " + meaning +
+                ", greater than 0");
   }
 
   // 0 when absent.
@@ -56,7 +56,7 @@ class CameraKeys {
     const std::string meaning = "a whole number of pixels";
     const double value = optional_positive(key, meaning);
     if (value <= kLargest && value == std::floor(value)) return static_cast<int>(value);
-    throw std::runtime_error(file_ + ": " + key + " is " + short_text(value) + "; expected " + meaning);
+    throw Error(file_ + ": " + key + " is " + short_text(value) + "; expected " + meaning);
   }
 
   [[nodiscard]] std::string text(const std::string& key) const {
@@ -68,11 +68,11 @@ class CameraKeys {
   [[nodiscard]] double finite(const std::string& key, const std::string& meaning) const {
     const cv::FileNode node = storage_[key];
     if (!node.isInt() && !node.isReal()) {
-      throw std::runtime_error(file_ + ": " + key + " is not a number; expected " + meaning);
+      throw Error(file_ + ": " + key + " is not a number; expected " + meaning);
     }
     const double value = static_cast<double>(node);
     if (!std::isfinite(value)) {
-      throw std::runtime_error(file_ + ": " + key + " is not finite; expected " + meaning);
+      throw Error(file_ + ": " + key + " is not finite; expected " + meaning);
     }
     return value;
   }
@@ -86,24 +86,23 @@ class CameraKeys {
 // OpenCV would print its own lines and leave the stack in the message.
 inline void open_yaml(cv::FileStorage& storage, const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw std::runtime_error(path.string() + ": no such camera file");
+  if (!std::filesystem::exists(path, ignored)) throw Error(path.string() + ": no such camera file");
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw std::runtime_error(path.string() + ": is not a file; expected a camera file");
+    throw Error(path.string() + ": is not a file; expected a camera file");
   }
   bool opened = false;
   try {
     opened = storage.open(path.string(), cv::FileStorage::READ | cv::FileStorage::FORMAT_YAML);
   } catch (const cv::Exception& error) {
-    throw std::runtime_error(path.string() + ": not a YAML file that OpenCV reads (" + error.err +
-                             "); expected '%YAML:1.0', '---', then lines such as 'Camera.fx: 535.4'");
+    throw Error(path.string() + ": not a YAML file that OpenCV reads (" + error.err +
+                "); expected '%YAML:1.0', '---', then lines such as 'Camera.fx: 535.4'");
   }
-  if (!opened) throw std::runtime_error(path.string() + ": cannot open this camera file");
+  if (!opened) throw Error(path.string() + ": cannot open this camera file");
 }
 
 }  // namespace detail
 
-// Throws std::runtime_error, in one line, when the file cannot be read or a key is missing, not a number, not
+// Throws Error, in one line, when the file cannot be read or a key is missing, not a number, not
 // finite or not positive where it must be.
 [[nodiscard]] inline CameraFile read_camera_file(const std::filesystem::path& path) {
   cv::FileStorage storage;
@@ -111,7 +110,7 @@ inline void open_yaml(cv::FileStorage& storage, const std::filesystem::path& pat
   const detail::CameraKeys keys(storage, path.string());
   const std::string type = keys.text("Camera.type");
   if (!type.empty() && type != "PinHole" && type != "Pinhole") {
-    throw std::runtime_error(path.string() + ": Camera.type is '" + type + "'; expected 'PinHole'");
+    throw Error(path.string() + ": Camera.type is '" + type + "'; expected 'PinHole'");
   }
   const bool numbered = keys.has("Camera1.fx") && !keys.has("Camera.fx");
   const std::string prefix = numbered ? "Camera1." : "Camera.";

@@ -7,15 +7,16 @@
 #include <filesystem>
 #include <initializer_list>
 #include <opencv2/core.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "sslam/core/error.hpp"
 
 namespace sslam {
 
 // what() is one line that names the file and the field.
-struct NormalModelError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct NormalModelError : Error {
+  using Error::Error;
 };
 
 enum class NetworkOutput { kNormals, kDepth, kInverseDepth };

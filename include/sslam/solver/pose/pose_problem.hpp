@@ -10,6 +10,7 @@
 #include "sslam/residual/loss.hpp"
 #include "sslam/residual/point_reprojection.hpp"
 #include "sslam/solver/least_squares/levenberg_marquardt.hpp"
+#include "sslam/solver/pose/rotation_prior.hpp"
 
 namespace sslam {
 
@@ -25,14 +26,6 @@ struct LineObservation {
   Line3<S> line_world;
   Segment2<S> segment;  // undistorted, pixels
   S sigma = 1;          // of an end across the segment, pixels
-};
-
-// What structure says about the rotation: a mean and the information of its left perturbation (camera frame,
-// rad^-2).
-template <Scalar S>
-struct RotationPrior {
-  SO3<S> cam_from_world;
-  Mat3<S> information;
 };
 
 namespace detail {

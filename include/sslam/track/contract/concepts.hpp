@@ -5,25 +5,28 @@
 
 #include <concepts>
 #include <optional>
-#include <utility>
-#include <vector>
 
+#include "sslam/map/map.hpp"
+#include "sslam/solver/pose/rotation_prior.hpp"
+#include "sslam/track/contract/loop.hpp"
+#include "sslam/track/contract/loop_answer.hpp"
+#include "sslam/track/contract/map_change.hpp"
+#include "sslam/track/contract/place_match.hpp"
 #include "sslam/track/contract/pose_estimate.hpp"
-#include "sslam/track/localise/rotation.hpp"
-#include "sslam/track/localise/translation.hpp"
-#include "sslam/track/loops/loop_closing.hpp"
-#include "sslam/track/upkeep/map_change.hpp"
+#include "sslam/track/contract/recent_landmarks.hpp"
+#include "sslam/track/contract/rotation_answer.hpp"
+#include "sslam/track/contract/stage_timer.hpp"
 
 namespace sslam {
 
-// Estimates the frame's rotation from structure alone, without drift.
+// Estimates the frame's rotation from structure alone, without drift. A copy that forgets looks at the frame
+// in another world.
 template <class T, class S>
-concept RotationStage = requires(T stage, TrackedFrame<S>& frame, const SO3<S>& predicted, bool mapped,
-                                 const std::vector<SO3<S>>& known) {
-  { stage.rotate(frame, predicted, mapped) } -> std::same_as<RotationAnswer<S>>;
-  { stage.world_from_manhattan() } -> std::convertible_to<std::vector<SO3<S>>>;
-  stage.lose();
-  stage.reset(known);
+concept RotationStage = std::copyable<T> &&
+    requires(T stage, const Frame<S>& frame, const SO3<S>& predicted, const KnownAxes<S>& known) {
+  { stage.rotate(frame, predicted, known) } -> std::same_as<RotationAnswer<S>>;
+  stage.lose();    // the frame has no pose after all
+  stage.forget();  // the world is another one
 };
 
 // Makes the first map from two frames.
@@ -48,7 +51,7 @@ concept FallbackStage = requires(T stage, const Map<S>& map, const RecentLandmar
   { stage.track_keyframe(map, keyframe, prior, frame) } -> std::same_as<PoseEstimate<S>>;
 };
 
-// Checks a pose against the local map and refines it.
+// Checks a pose against the local map, refines it, and counts what was seen in the map's landmarks.
 template <class T, class S>
 concept RefinementStage = requires(T stage, Map<S>& map, const RotationPrior<S>* prior,
                                    TrackedFrame<S>& frame) {
@@ -68,15 +71,25 @@ concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
   stage.begin(map, frame, S{});
 };
 
-// Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift; or
-// a place of another map, and joins both.
+// Finds places of one map in another.
 template <class T, class S>
-concept LoopStage = requires(T stage, Map<S>& map, const Loop<S>& loop, std::optional<PlaceMatch<S>>& met) {
+concept PlaceFinder = std::semiregular<T> &&
+    requires(T finder, const Map<S>& here, const Map<S>& there, const Keyframe<S>& keyframe,
+             const Loop<S>& loop, std::optional<PlaceMatch<S>>& first) {
+  // The place in `there` of a keyframe of `here`.
+  { finder.find(here, KeyframeId{}, there) } -> std::same_as<std::optional<Loop<S>>>;
+  // Whether it bears out the one that was met first, which it replaces where they contradict each other.
+  { finder.confirmed(keyframe, there, loop, first) } -> std::same_as<bool>;
+};
+
+// Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift; or
+// joins two maps where a place of one was found in the other.
+template <class T, class S>
+concept LoopStage = requires(T stage, const T idle, Map<S>& map, const Loop<S>& loop) {
   { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
-  { stage.detection.find(std::as_const(map), KeyframeId{}, map) } -> std::same_as<std::optional<Loop<S>>>;
-  { stage.detection.check.confirmed(Keyframe<S>(), map, loop, met) } -> std::same_as<bool>;
   { stage.merge(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
-  stage.forget();  // the map is another one
+  { idle.finder() } -> PlaceFinder<S>;  // of its own, for use while the stage is at work
+  stage.forget();                       // the map is another one
 };
 
 // Decides when and where mapping and loop closing happen.
@@ -90,5 +103,15 @@ concept UpkeepStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame, Map
   { stage.finish(map) } -> std::same_as<const MapChange<S>*>;
   stage.forget();
 };
+
+// One type for each slot of the pipeline.
+template <class T, class S>
+concept StageSet =
+    RotationStage<typename T::Rotation, S> && InitialisationStage<typename T::Initialisation, S> &&
+    TranslationStage<typename T::Translation, S> && FallbackStage<typename T::Fallback, S> &&
+    RefinementStage<typename T::Refinement, S> && KeyframeStage<typename T::Keyframes, S> &&
+    MappingStage<typename T::Mapping, S> && LoopStage<typename T::Loops, S> &&
+    UpkeepStage<typename T::Upkeep, S, typename T::Mapping, typename T::Loops> &&
+    StageTimer<typename T::Timer>;
 
 }  // namespace sslam

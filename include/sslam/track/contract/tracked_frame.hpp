@@ -2,11 +2,14 @@
 // A frame on its way through the tracker: features, an index over them, the landmarks they see, and a pose.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "sslam/map/feature_grid.hpp"
 #include "sslam/map/keyframe.hpp"
+#include "sslam/map/manhattan_axes.hpp"
+#include "sslam/track/contract/rotation_answer.hpp"
 
 namespace sslam {
 
@@ -29,6 +32,18 @@ struct TrackedFrame {
     forget_matches();
   }
 
+  // Takes over what the rotation stage says, with the lines' axes by their numbers in the world.
+  void take(const RotationAnswer<S>& answer, const std::vector<SO3<S>>& world_from_manhattan) {
+    forget_manhattan();
+    if (!answer.seen) return;
+    manhattan = answer.seen->rotation;
+    manhattan_frame = answer.seen->manhattan_frame;
+    if (manhattan_frame >= world_from_manhattan.size()) return;  // the rotation comes from elsewhere
+    const std::size_t lines = std::min(answer.line_axes.size(), line_axes.size());
+    for (std::size_t i = 0; i < lines; ++i)
+      line_axes[i] = axis_number(world_from_manhattan, manhattan_frame, answer.line_axes[i]);
+  }
+
   void forget_manhattan() {
     line_axes.assign(frame.lines.size(), kNone);
     manhattan.reset();
@@ -43,8 +58,10 @@ struct TrackedFrame {
   template <class View>
   void read_back(const View& view) {
     cam_from_world = view.cam_from_world;
-    point_landmarks = view.point_landmarks;
-    line_landmarks = view.line_landmarks;
+    const std::vector<LandmarkId>& points = view.point_landmarks;
+    const std::vector<LandmarkId>& lines = view.line_landmarks;
+    point_landmarks = points;
+    line_landmarks = lines;
   }
 
   [[nodiscard]] Keyframe<S> to_keyframe() const {
@@ -52,11 +69,9 @@ struct TrackedFrame {
     keyframe.frame = frame;
     keyframe.frame.normals = {};  // they served the rotation stage
     keyframe.cam_from_world = cam_from_world;
-    keyframe.point_landmarks = point_landmarks;
-    keyframe.line_landmarks = line_landmarks;
     keyframe.line_axes = line_axes;
     keyframe.manhattan = manhattan;
-    return keyframe;
+    return std::move(keyframe).seeing(point_landmarks, line_landmarks);
   }
 };
 

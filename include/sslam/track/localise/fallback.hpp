@@ -99,6 +99,7 @@ class FeatureFallback {
   RecentLandmarks<S> recent_;
   std::vector<IndexPair> pairs_;
 };
+static_assert(FallbackStage<FeatureFallback<double>, double>);
 
 // Never answers: a frame without Manhattan evidence is lost.
 template <Scalar S>
@@ -112,5 +113,6 @@ struct NoFallback {
     return {};
   }
 };
+static_assert(FallbackStage<NoFallback<double>, double>);
 
 }  // namespace sslam

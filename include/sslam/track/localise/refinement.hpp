@@ -37,14 +37,23 @@ class LocalMapRefinement {
   // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the
   // landmarks' visible and found counts are brought up to date. Unchanged pose on failure.
   [[nodiscard]] PoseEstimate<S> refine(Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+    const PoseEstimate<S> estimate = refine_uncounted(map, prior, frame);
+    for (const LandmarkId id : visible_points_) ++map.points[map.index(id)].visible;
+    for (const LandmarkId id : visible_lines_) ++map.lines[map.index(id)].visible;
+    if (estimate.ok()) count_found(map, frame);
+    return estimate;
+  }
+
+  // The same for a place that is only supposed: the map stays as it is.
+  [[nodiscard]] PoseEstimate<S> refine_uncounted(const Map<S>& map, const RotationPrior<S>* prior,
+                                                 TrackedFrame<S>& frame) {
     local_.gather(map, frame.point_landmarks, frame.line_landmarks, options.max_keyframes);
-    drop_matched(local_.points, frame.point_landmarks);
-    drop_matched(local_.lines, frame.line_landmarks);
-    count_matched(map, frame, [](LandmarkCommon& l) { ++l.visible; });
+    drop_matched(local_.points, frame.point_landmarks, visible_points_);
+    drop_matched(local_.lines, frame.line_landmarks, visible_lines_);
     match_points_by_projection<S>(map, local_.points, frame, options.match.point_radius, options.match.points,
-                                  [&](LandmarkId id, bool) { ++map.points[map.index(id)].visible; });
+                                  [&](LandmarkId id, bool) { visible_points_.push_back(id); });
     match_lines_by_projection<S>(map, local_.lines, frame, options.match.line_radius, options.match.lines,
-                                 [&](LandmarkId id, bool) { ++map.lines[map.index(id)].visible; });
+                                 [&](LandmarkId id, bool) { visible_lines_.push_back(id); });
     matches_.gather(map, frame);
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
@@ -53,7 +62,6 @@ class LocalMapRefinement {
     const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
     if (!estimate.ok()) return estimate;
     matches_.drop_outliers(frame);
-    count_matched(map, frame, [](LandmarkCommon& l) { ++l.found; });
     frame.cam_from_world = pose;
     return estimate;
   }
@@ -66,27 +74,29 @@ class LocalMapRefinement {
   }
 
  private:
-  void drop_matched(std::vector<LandmarkId>& candidates, const std::vector<LandmarkId>& matched) {
-    taken_.clear();
+  // `visible` becomes those that are matched.
+  static void drop_matched(std::vector<LandmarkId>& candidates, const std::vector<LandmarkId>& matched,
+                           std::vector<LandmarkId>& visible) {
+    visible.clear();
     for (const LandmarkId id : matched)
-      if (id != kNone) taken_.push_back(id);
-    std::sort(taken_.begin(), taken_.end());
+      if (id != kNone) visible.push_back(id);
+    std::sort(visible.begin(), visible.end());
     std::erase_if(candidates,
-                  [&](LandmarkId id) { return std::binary_search(taken_.begin(), taken_.end(), id); });
+                  [&](LandmarkId id) { return std::binary_search(visible.begin(), visible.end(), id); });
   }
 
-  template <class Count>
-  static void count_matched(Map<S>& map, const TrackedFrame<S>& frame, Count count) {
+  static void count_found(Map<S>& map, const TrackedFrame<S>& frame) {
     for (const LandmarkId id : frame.point_landmarks)
-      if (id != kNone) count(map.points[map.index(id)]);
+      if (id != kNone) ++map.points[map.index(id)].found;
     for (const LandmarkId id : frame.line_landmarks)
-      if (id != kNone) count(map.lines[map.index(id)]);
+      if (id != kNone) ++map.lines[map.index(id)].found;
   }
 
   LocalMap<S> local_;
   Correspondences<S> matches_;
-  std::vector<LandmarkId> taken_;
+  std::vector<LandmarkId> visible_points_, visible_lines_;  // that the frame should show
 };
+static_assert(RefinementStage<LocalMapRefinement<double>, double>);
 
 // Takes the tracked pose as it is.
 template <Scalar S>
@@ -95,5 +105,6 @@ struct NoRefinement {
     return {Reason::kFine, count_held(frame.point_landmarks), count_held(frame.line_landmarks)};
   }
 };
+static_assert(RefinementStage<NoRefinement<double>, double>);
 
 }  // namespace sslam

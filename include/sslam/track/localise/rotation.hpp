@@ -2,59 +2,65 @@
 // The rotation stage: where the Manhattan frame is seen, it gives each frame's rotation without drift.
 #pragma once
 
-#include <algorithm>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/manhattan/rotation.hpp"
 #include "sslam/manhattan/search.hpp"
-#include "sslam/map/manhattan_axes.hpp"
-#include "sslam/track/contract/tracked_frame.hpp"
-#include "sslam/track/localise/manhattan_frames.hpp"
+#include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/localise/manhattan_sightings.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-struct RotationAnswer {
-  int axes_seen = 0;
-  bool trusted = false;  // all three degrees of freedom are known well enough to fix them
+struct RotationOptions {
+  SearchOptions<S> search;  // of a frame that is not known yet; its `rotation` options serve every later one
+  S squareness = radians(S(0.1));  // how far walls and edges stand from right angles: floor of every sigma
+  S max_sigma = radians(S(1.5));   // largest standard deviation, about any axis, of a trusted rotation
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("squareness", self.squareness, Unit::kDegrees, 0, 45,
+          "how far walls and edges stand from right angles");
+    visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
+          "largest standard deviation of a rotation that is trusted");
+    visit_within("", self.search.rotation, visit);
+    visit_within("search.", self.search, visit);
+  }
 };
+static_assert(Described<RotationOptions<double>>);
 
 template <Scalar S>
 class ManhattanRotation {
  public:
-  SearchOptions<S> search;  // of a frame that is not known yet; its `rotation` options serve every later one
-  ManhattanFrames<S> frames;
+  RotationOptions<S> options;
+  ManhattanSightings<S> sightings;
   std::uint64_t seed = 1;
-  S squareness = radians(S(0.1));  // how far walls and edges stand from right angles: floor of every sigma
-  S max_sigma = radians(S(1.5));   // largest standard deviation, about any axis, of a trusted rotation
 
-  // Estimates the frame's rotation near the prediction and leaves it, with the axes of its lines, in the
-  // frame. `mapped` says whether the world is already fixed: before, the first Manhattan frame becomes the
-  // world.
-  RotationAnswer<S> rotate(TrackedFrame<S>& frame, const SO3<S>& predicted_cam_from_world, bool mapped) {
-    gather_votes(frame.frame);
+  // The rotation near the prediction. Which Manhattan frames there are, the caller says and keeps.
+  RotationAnswer<S> rotate(const Frame<S>& frame, const SO3<S>& predicted_cam_from_world,
+                           const KnownAxes<S>& known) {
+    gather_votes(frame);
     predicted_ = predicted_cam_from_world;
-    frame.line_axes.assign(frame.frame.lines.size(), kNone);
-    frame.manhattan.reset();
-    std::optional<std::size_t> index = track(frame);
-    if (!index && !usable(estimate_.status) && !degenerate()) index = look_around(frame, mapped);
-    if (index) return answer(*index, frame);
-    std::fill(frame.line_axes.begin(), frame.line_axes.end(), std::int8_t{kNone});
-    return {usable(estimate_.status) ? estimate_.axes_seen : 0};
+    line_axes_.assign(frame.lines.size(), kNone);
+    discovered_.reset();
+    std::optional<std::size_t> index = track(known.world_from_manhattan);
+    if (!index && !usable(estimate_.status) && !degenerate()) index = look_around(known);
+    if (index) return answer(*index, known.world_from_manhattan);
+    RotationAnswer<S> nothing;
+    if (usable(estimate_.status)) nothing.axes_seen = estimate_.axes_seen;
+    return nothing;
   }
 
-  // One for each Manhattan frame.
-  [[nodiscard]] const std::vector<SO3<S>>& world_from_manhattan() const noexcept {
-    return frames.world_from_manhattan();
-  }
   // The frame has no pose after all: what was predicted of its rotation says nothing of an unknown Manhattan
   // frame.
-  void lose() noexcept { frames.see_nothing(); }
-  // Goes on with the Manhattan frames of a map, or with none.
-  void reset(const std::vector<SO3<S>>& world_from_manhattan) {
-    frames.reset(world_from_manhattan);
+  void lose() noexcept { sightings.see_nothing(); }
+  // The world is another one.
+  void forget() noexcept {
+    sightings.forget();
     active_ = 0;
   }
 
@@ -65,65 +71,66 @@ class ManhattanRotation {
       votes_.push_back(line_vote(line.segment, frame.pinhole, line.sigma));
     const auto& n = frame.normals;
     normals_ = {n.x.data(), n.y.data(), n.z.data(), n.weight.data(), n.size()};
-    options_ = search;
-    options_.rotation = search.rotation.with_plane_sigma(static_cast<S>(n.plane_sigma));
+    search_ = options.search;
+    search_.rotation = search_.rotation.with_plane_sigma(static_cast<S>(n.plane_sigma));
   }
 
   // Near a frame that is known: the one seen last, or else another.
-  [[nodiscard]] std::optional<std::size_t> track(TrackedFrame<S>& frame) {
+  [[nodiscard]] std::optional<std::size_t> track(const std::vector<SO3<S>>& known) {
     estimate_ = {};
-    const std::size_t count = frames.world_from_manhattan().size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t index = (active_ + i) % count;
-      track(index, frame);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      const std::size_t index = (active_ + i) % known.size();
+      track(known[index]);
       if (degenerate()) return index;  // too little is seen to tell it from another
-      if (usable(estimate_.status)) return name(index, frame);
+      if (usable(estimate_.status)) return name(index, known);
     }
     return std::nullopt;
   }
 
-  void track(std::size_t index, TrackedFrame<S>& frame) {
-    const ManhattanPrior<S> prior{predicted_ * frames.world_from_manhattan()[index]};
-    estimate_ = track_manhattan<S>(normals_, votes_, prior, options_.rotation, frame.line_axes);
+  void track(const SO3<S>& world_from_manhattan) {
+    const ManhattanPrior<S> prior{predicted_ * world_from_manhattan};
+    estimate_ = track_manhattan<S>(normals_, votes_, prior, search_.rotation, line_axes_);
   }
 
   // Nothing is seen near the frames that are known, or none is known.
-  [[nodiscard]] std::optional<std::size_t> look_around(TrackedFrame<S>& frame, bool mapped) {
-    estimate_ = find_manhattan<S>(normals_, votes_, options_, seed, frame.line_axes);
+  [[nodiscard]] std::optional<std::size_t> look_around(const KnownAxes<S>& known) {
+    estimate_ = find_manhattan<S>(normals_, votes_, search_, seed, line_axes_);
     if (!usable(estimate_.status) || estimate_.axes_seen < 2) {
-      frames.see_nothing();
+      sightings.see_nothing();
       return std::nullopt;
     }
-    if (mapped || !frames.empty()) return name(std::nullopt, frame);
-    frames.begin();
+    if (known.world_fixed || !known.world_from_manhattan.empty())
+      return name(std::nullopt, known.world_from_manhattan);
+    discovered_ = SO3<S>();  // this frame becomes the axes of the world
     return 0;
   }
 
   // Which frame the estimate shows. Unless it was found near that one, it is estimated anew by the names that
   // frame's axes have.
-  [[nodiscard]] std::optional<std::size_t> name(std::optional<std::size_t> near, TrackedFrame<S>& frame) {
+  [[nodiscard]] std::optional<std::size_t> name(std::optional<std::size_t> near,
+                                                const std::vector<SO3<S>>& known) {
     const SO3<S> world_from_manhattan = predicted_.inverse() * estimate_.cam_from_manhattan;
-    const std::optional<std::size_t> index = frames.which(world_from_manhattan);
+    const std::optional<std::size_t> index = sightings.which(known, world_from_manhattan);
     if (index) {
-      if (index != near) track(*index, frame);
+      if (index != near) track(known[*index]);
       return usable(estimate_.status) || degenerate() ? index : std::nullopt;
     }
-    if (!frames.see_unknown(world_from_manhattan)) return std::nullopt;
-    return frames.world_from_manhattan().size() - 1;
+    discovered_ = sightings.see_unknown(known.size(), world_from_manhattan);
+    if (!discovered_) return std::nullopt;
+    return known.size();
   }
 
-  RotationAnswer<S> answer(std::size_t index, TrackedFrame<S>& frame) {
+  RotationAnswer<S> answer(std::size_t index, const std::vector<SO3<S>>& known) {
     active_ = index;
-    frames.see(index, predicted_.inverse() * estimate_.cam_from_manhattan);
-    for (std::int8_t& axis : frame.line_axes) axis = axis_number(frames.world_from_manhattan(), index, axis);
-    RotationObservation<S> observation;
-    observation.cam_from_world =
-        estimate_.cam_from_manhattan * frames.world_from_manhattan()[index].inverse();
-    observation.covariance = estimate_.covariance + squareness * squareness * Mat3<S>::Identity();
-    frame.manhattan = observation;
-    frame.manhattan_frame = index;
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(observation.covariance, Eigen::EigenvaluesOnly);
-    return {estimate_.axes_seen, std::sqrt(eigen.eigenvalues().z()) < max_sigma};
+    const SO3<S>& world_from_manhattan = discovered_ ? *discovered_ : known[index];
+    sightings.see(index, world_from_manhattan, predicted_.inverse() * estimate_.cam_from_manhattan);
+    RotationObservation<S> rotation;
+    rotation.cam_from_world = estimate_.cam_from_manhattan * world_from_manhattan.inverse();
+    rotation.covariance =
+        estimate_.covariance + options.squareness * options.squareness * Mat3<S>::Identity();
+    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(rotation.covariance, Eigen::EigenvaluesOnly);
+    const bool certain = std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
+    return {{{rotation, certain, index}}, estimate_.axes_seen, line_axes_, discovered_};
   }
 
   [[nodiscard]] bool degenerate() const noexcept { return estimate_.status == Status::kDegenerate; }
@@ -132,19 +139,22 @@ class ManhattanRotation {
   SO3<S> predicted_;
   NormalView<float> normals_;
   std::vector<LineVote<S>> votes_;
-  SearchOptions<S> options_;
+  SearchOptions<S> search_;
   ManhattanEstimate<S> estimate_;
+  std::vector<std::int8_t> line_axes_;
+  std::optional<SO3<S>> discovered_;
 
   std::size_t active_ = 0;  // the Manhattan frame that was seen last
 };
+static_assert(RotationStage<ManhattanRotation<double>, double>);
 
 // No Manhattan world: every frame takes the fallback.
 template <Scalar S>
 struct NoRotation {
-  RotationAnswer<S> rotate(TrackedFrame<S>&, const SO3<S>&, bool) { return {}; }
-  [[nodiscard]] std::vector<SO3<S>> world_from_manhattan() const { return {}; }
+  RotationAnswer<S> rotate(const Frame<S>&, const SO3<S>&, const KnownAxes<S>&) { return {}; }
   void lose() noexcept {}
-  void reset(const std::vector<SO3<S>>&) {}
+  void forget() noexcept {}
 };
+static_assert(RotationStage<NoRotation<double>, double>);
 
 }  // namespace sslam

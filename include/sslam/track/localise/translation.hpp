@@ -3,37 +3,12 @@
 // lines of the last two frames fix them (Li et al. 2020, section V-B).
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "sslam/core/parameter.hpp"
-#include "sslam/track/contract/pose_estimate.hpp"
+#include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/matching/match_lines.hpp"
+#include "sslam/track/matching/pose_acceptance.hpp"
 
 namespace sslam {
-
-// The landmarks seen in the last two frames, each once.
-template <Scalar S>
-struct RecentLandmarks {
-  std::vector<LandmarkId> points;
-  std::vector<LandmarkId> lines;
-
-  void gather(const TrackedFrame<S>& last, const TrackedFrame<S>& before) {
-    merge(points, last.point_landmarks, before.point_landmarks);
-    merge(lines, last.line_landmarks, before.line_landmarks);
-  }
-
- private:
-  static void merge(std::vector<LandmarkId>& out, const std::vector<LandmarkId>& a,
-                    const std::vector<LandmarkId>& b) {
-    out.clear();
-    for (const auto* seen : {&a, &b})
-      for (const LandmarkId id : *seen)
-        if (id != kNone) out.push_back(id);
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-  }
-};
 
 template <Scalar S>
 struct MatchOptions {
@@ -108,6 +83,7 @@ class DecoupledTranslation {
  private:
   Correspondences<S> matches_;
 };
+static_assert(TranslationStage<DecoupledTranslation<double>, double>);
 
 // Never answers: every frame takes the fallback, with its full six degrees of freedom.
 template <Scalar S>
@@ -116,5 +92,6 @@ struct NoTranslation {
     return {.reason = Reason::kNoManhattanFrame};
   }
 };
+static_assert(TranslationStage<NoTranslation<double>, double>);
 
 }  // namespace sslam

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "sslam/map/map_adjustment.hpp"
 #include "sslam/map/map_deformation.hpp"
 #include "sslam/solver/bundle/pose_graph_solver.hpp"
+#include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/loops/loop_detection.hpp"
 #include "sslam/track/loops/map_join.hpp"
 #include "sslam/track/mapping/fusion.hpp"
@@ -20,34 +20,40 @@
 namespace sslam {
 
 template <Scalar S>
-struct LoopAnswer {
-  bool closed = false;
-  // By keyframe, how the world moved there; empty where nothing had drifted. Valid until the next call.
-  std::span<const Sim3<S>> new_from_old;
+struct LoopClosingOptions {
+  std::size_t place_keyframes = 10;  // around the place, whose landmarks are looked for again
+  S in_place = S(0.8);  // share of the place's landmarks that are where the map has them: nothing has drifted
 
-  // What lengths at the keyframe are multiplied by.
-  [[nodiscard]] S scale_at(KeyframeId keyframe) const {
-    return new_from_old.empty() ? S(1) : new_from_old[Map<S>::index(keyframe)].scale;
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("place_keyframes", self.place_keyframes, Unit::kCount, 1, 1000,
+          "around a place, whose landmarks are looked for again");
+    visit("in_place", self.in_place, Unit::kShare, 0, 1,
+          "of a place's landmarks, that are where the map has them: nothing has drifted");
   }
 };
-
-// How one map has become part of another.
-template <Scalar S>
-struct MapJoint {
-  Sim3<S> moved;  // its world, in the other
-  IdShift shift;
-};
+static_assert(Described<LoopClosingOptions<double>>);
 
 template <Scalar S>
 class LoopClosing {
  public:
+  LoopClosingOptions<S> options;
   LoopDetection<S> detection;
   EssentialGraph<S> essential;
   PoseGraphSolver<S> pose_graph;
   MapAdjustment<S, BundleSolver<S>> adjustment;
   LandmarkFusion<S> fusion;
-  std::size_t place_keyframes = 10;  // around the place, whose landmarks are looked for again
-  S in_place = S(0.8);  // share of the place's landmarks that are where the map has them: nothing has drifted
+
+  // With those of its detection, adjustment and fusion.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+    visit_stage("", self.detection, visit);
+    visit_stage("graph.", self.essential, visit);
+    visit_stage("graph.", self.pose_graph, visit);
+    visit_stage("adjustment.", self.adjustment, visit);
+    visit_stage("fusion.", self.fusion, visit);
+  }
 
   // Drift bends the map as a whole, which is slow to adjust.
   LoopClosing() {
@@ -60,11 +66,11 @@ class LoopClosing {
     const std::optional<Loop<S>> loop = detection.find(map, id, map);
     if (!loop) return {};
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < in_place;
-    // A place that the map expects nearby needs no second thing.
-    const PlaceConfirmation<S>& check = detection.check;
-    if (drifted && share_in_place(map, keyframe, *loop, check.reach) < check.min_share &&
-        !check.confirmed(keyframe, map, *loop, met_))
+    const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < options.in_place;
+    // A place that the map expects nearby needs no second sighting.
+    const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
+    if (drifted && share_in_place(map, keyframe, *loop, nearby.reach) < nearby.min_share &&
+        !detection.confirmed(keyframe, map, *loop, met_))
       return {};
     forget();
     if (drifted && !bend(map, id, *loop)) return {};
@@ -77,11 +83,13 @@ class LoopClosing {
     return {true, new_from_old_};
   }
 
+  [[nodiscard]] LoopDetection<S> finder() const { return detection; }
+
   // `other` becomes part of the map, as its keyframe `id`, which met the map there, says.
   MapJoint<S> merge(Map<S>& map, Map<S> other, KeyframeId id, const Loop<S>& loop) {
     MapJoint<S> joint;
     joint.moved = loop.there_from_here(other.keyframes[map.index(id)].cam_from_world);
-    joint.shift = append(map, std::move(other), joint.moved, detection.max_turn);
+    joint.shift = append(map, std::move(other), joint.moved, detection.options.max_turn);
     join(map, id + joint.shift.keyframes, loop);
     adjustment.optimise_all(map);
     forget();
@@ -128,7 +136,7 @@ class LoopClosing {
   void join(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
     std::vector<KeyframeId> here(1, id);
     for (const Neighbour& n : map.keyframes[map.index(id)].neighbours) here.push_back(n.keyframe);
-    place_.gather_around(map, loop.place, place_keyframes);
+    place_.gather_around(map, loop.place, options.place_keyframes);
     take_over(
         map, id, loop.point_landmarks, &Keyframe<S>::point_landmarks, map.points,
         [&](LandmarkId from, LandmarkId into) { map.fuse_points(from, into); },
@@ -160,14 +168,6 @@ class LoopClosing {
   std::optional<PlaceMatch<S>> met_;  // a place that may be one which was left long ago
 };
 
-// The map stays as tracking made it.
-template <Scalar S>
-struct NoLoopClosing {
-  NoLoopDetection<S> detection;
-
-  LoopAnswer<S> close(Map<S>&, KeyframeId) { return {}; }
-  MapJoint<S> merge(Map<S>&, Map<S>, KeyframeId, const Loop<S>&) { return {}; }
-  void forget() noexcept {}
-};
+static_assert(LoopStage<LoopClosing<double>, double>);
 
 }  // namespace sslam

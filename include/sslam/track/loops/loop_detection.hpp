@@ -9,26 +9,54 @@
 #include <vector>
 
 #include "sslam/core/median.hpp"
+#include "sslam/core/parameter.hpp"
 #include "sslam/manhattan/nearest_frame.hpp"
 #include "sslam/track/localise/fallback.hpp"
 #include "sslam/track/localise/place_recognition.hpp"
 #include "sslam/track/localise/refinement.hpp"
-#include "sslam/track/loops/place_match.hpp"
+#include "sslam/track/loops/place_confirmation.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class LoopDetection {
- public:
-  PlaceRecognition<S> places;  // places.options.most: keyframes to try; 0: no loop is ever found
-  PlaceConfirmation<S> check;
-  FeatureFallback<S> alignment;
-  LocalMapRefinement<S> refinement;
+struct LoopDetectionOptions {
   S max_turn = radians(S(15));  // of the world between both places; structure lets it drift by much less
   S depth_agreement = S(0.15);  // between the ratios of two depths of one feature and their median
   S min_depth_share = S(0.6);   // of the features that stand twice in the map and agree on the ratio
   int min_depths = 10;          // of them
   S max_scale_drift = S(2);     // factor
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180, "of the world that a loop may undo");
+    visit("depth_agreement", self.depth_agreement, Unit::kNumber, 0, 10,
+          "between the ratios of two depths of one feature and their median, logarithmic");
+    visit("min_depth_share", self.min_depth_share, Unit::kShare, 0, 1,
+          "of the features that stand twice in the map, that agree on the ratio");
+    visit("min_depths", self.min_depths, Unit::kCount, 1, 10000, "features that stand twice in the map");
+    visit("max_scale_drift", self.max_scale_drift, Unit::kNumber, 1, 100, "that a loop may undo, factor");
+  }
+};
+static_assert(Described<LoopDetectionOptions<double>>);
+
+template <Scalar S>
+class LoopDetection {
+ public:
+  LoopDetectionOptions<S> options;
+  PlaceRecognition<S> places;  // places.options.most: keyframes to try; 0: no loop is ever found
+  PlaceConfirmation<S> confirmation;
+  FeatureFallback<S> alignment;
+  LocalMapRefinement<S> refinement;
+
+  // With those of the stages that it asks.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+    visit_stage("", self.places, visit);
+    visit_stage("", self.refinement, visit);
+    visit_stage("alignment.", self.alignment, visit);
+    visit_stage("confirmation.", self.confirmation, visit);
+  }
 
   LoopDetection() {
     places.options.most = 2;
@@ -37,7 +65,7 @@ class LoopDetection {
   }
 
   // The place of a keyframe of `here` in `there`, which may be the same map.
-  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>& here, KeyframeId id, Map<S>& there) {
+  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>& here, KeyframeId id, const Map<S>& there) {
     const Keyframe<S>& keyframe = here.keyframes[here.index(id)];
     connected_.clear();
     if (&here == &there) {
@@ -54,19 +82,26 @@ class LoopDetection {
     return std::nullopt;
   }
 
+  // Whether that place bears out the one met before, `first`, which becomes the newer one where they
+  // contradict each other.
+  [[nodiscard]] bool confirmed(const Keyframe<S>& keyframe, const Map<S>& there, const Loop<S>& loop,
+                               std::optional<PlaceMatch<S>>& first) const {
+    return confirmation.confirmed(keyframe, there, loop, first);
+  }
+
  private:
   [[nodiscard]] static bool covisible(const Keyframe<S>& keyframe, KeyframeId other) {
     return std::any_of(keyframe.neighbours.begin(), keyframe.neighbours.end(),
                        [&](const Neighbour& n) { return n.keyframe == other; });
   }
 
-  [[nodiscard]] std::optional<Loop<S>> verify(const Map<S>& here, const Keyframe<S>& keyframe, Map<S>& there,
-                                              KeyframeId place) {
+  [[nodiscard]] std::optional<Loop<S>> verify(const Map<S>& here, const Keyframe<S>& keyframe,
+                                              const Map<S>& there, KeyframeId place) {
     view_.frame = keyframe.frame;
     view_.grid.build(view_.frame.points, view_.frame.width, view_.frame.height);
     view_.cam_from_world = there.keyframes[there.index(place)].cam_from_world;
     if (!alignment.track_keyframe(there, place, nullptr, view_).ok()) return std::nullopt;
-    const PoseEstimate<S> estimate = refinement.refine(there, nullptr, view_);
+    const PoseEstimate<S> estimate = refinement.refine_uncounted(there, nullptr, view_);
     if (!estimate.ok()) return std::nullopt;
     const SO3<S> turn = view_.cam_from_world.rotation.inverse() * keyframe.cam_from_world.rotation;
     if (!agrees(here, there, turn)) return std::nullopt;
@@ -83,12 +118,12 @@ class LoopDetection {
   // One map turns by little on the way round a loop. Two may stand anyhow to each other, but if both know a
   // Manhattan frame, one of them must be the same.
   [[nodiscard]] bool agrees(const Map<S>& here, const Map<S>& there, const SO3<S>& there_from_here) const {
-    if (&here == &there) return there_from_here.log().norm() < max_turn;
+    if (&here == &there) return there_from_here.log().norm() < options.max_turn;
     const auto& known = there.world_from_manhattan;
     return known.empty() || here.world_from_manhattan.empty() ||
            std::any_of(here.world_from_manhattan.begin(), here.world_from_manhattan.end(),
                        [&](const SO3<S>& frame) {
-                         return nearest_frame(known, there_from_here * frame, max_turn).has_value();
+                         return nearest_frame(known, there_from_here * frame, options.max_turn).has_value();
                        });
   }
 
@@ -117,14 +152,14 @@ class LoopDetection {
               const Line3<S> line = transform(cam_from_world, map.lines[map.index(id)].line);
               return line.closest_to_ray(Vec3<S>::Zero(), ray).z();
             });
-    if (static_cast<int>(ratios_.size()) < min_depths) return std::nullopt;
+    if (static_cast<int>(ratios_.size()) < options.min_depths) return std::nullopt;
     const S drift = median<S>(ratios_);
     const auto agree = std::count_if(ratios_.begin(), ratios_.end(), [&](S ratio) {
-      return std::abs(std::log(ratio / drift)) < depth_agreement;
+      return std::abs(std::log(ratio / drift)) < options.depth_agreement;
     });
-    if (static_cast<S>(agree) < min_depth_share * static_cast<S>(ratios_.size())) return std::nullopt;
+    if (static_cast<S>(agree) < options.min_depth_share * static_cast<S>(ratios_.size())) return std::nullopt;
     // The scales of two maps are unrelated.
-    if (same && !(std::abs(std::log(drift)) < std::log(max_scale_drift))) return std::nullopt;
+    if (same && !(std::abs(std::log(drift)) < std::log(options.max_scale_drift))) return std::nullopt;
     return drift;
   }
 
@@ -132,13 +167,6 @@ class LoopDetection {
   TrackedFrame<S> view_;  // the keyframe, as a frame at the place
   std::vector<S> ratios_;
 };
-
-// Every place is new.
-template <Scalar S>
-struct NoLoopDetection {
-  PlaceConfirmation<S> check;
-
-  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>&, KeyframeId, Map<S>&) { return std::nullopt; }
-};
+static_assert(PlaceFinder<LoopDetection<double>, double>);
 
 }  // namespace sslam

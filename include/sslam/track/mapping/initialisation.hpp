@@ -15,7 +15,7 @@
 #include "sslam/solver/two_view/find_relative_pose.hpp"
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/translation.hpp"
-#include "sslam/track/contract/result.hpp"
+#include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/matching/match_points.hpp"
 
 namespace sslam {
@@ -230,5 +230,6 @@ class DecoupledInitialisation {
   std::vector<Seed> seeds_;
   std::vector<S> depths_;
 };
+static_assert(InitialisationStage<DecoupledInitialisation<double>, double>);
 
 }  // namespace sslam

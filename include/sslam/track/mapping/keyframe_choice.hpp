@@ -7,7 +7,7 @@
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
-#include "sslam/track/contract/tracked_frame.hpp"
+#include "sslam/track/contract/concepts.hpp"
 
 namespace sslam {
 
@@ -52,6 +52,7 @@ class SharedFeatureKeyframes {
            frame_from_reference.rotation.log().norm() > options.max_turn;
   }
 };
+static_assert(KeyframeStage<SharedFeatureKeyframes<double>, double>);
 
 // Keeps the map as initialisation left it.
 template <Scalar S>
@@ -60,5 +61,6 @@ struct NoKeyframes {
     return false;
   }
 };
+static_assert(KeyframeStage<NoKeyframes<double>, double>);
 
 }  // namespace sslam

@@ -5,6 +5,7 @@
 
 #include <concepts>
 
+#include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/mapping/fusion.hpp"
 #include "sslam/track/mapping/keyframe_culling.hpp"
 #include "sslam/track/mapping/landmark_culling.hpp"
@@ -70,5 +71,6 @@ class KeyframeMapping {
     frame.read_back(map.keyframes[map.index(id)]);
   }
 };
+static_assert(MappingStage<KeyframeMapping<double>, double>);
 
 }  // namespace sslam

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/upkeep/map_change.hpp"
+#include "sslam/track/contract/map_change.hpp"
 
 namespace sslam {
 
@@ -127,9 +127,11 @@ class DeferredUpkeep {
     std::swap(rest, own_);
     for (const Own& own : rest) {
       if (map.index(own.id) < known_) continue;
-      Keyframe<S> keyframe = std::move(snapshot_.map.keyframes[map.index(own.id)]);
-      change_.carry(own.reference, keyframe);
-      map.add_keyframe(std::move(keyframe));
+      Keyframe<S>& keyframe = snapshot_.map.keyframes[map.index(own.id)];
+      keyframe.cam_from_world = change_.pose(own.reference, keyframe.cam_from_world);
+      std::vector<LandmarkId> points = keyframe.point_landmarks, lines = keyframe.line_landmarks;
+      change_.forget_gone_matches(points, lines);
+      map.add_keyframe(std::move(keyframe).seeing(std::move(points), std::move(lines)));
       add_own(own.id, own.reference);
     }
   }

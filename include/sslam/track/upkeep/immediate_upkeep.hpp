@@ -3,8 +3,9 @@
 // frames give the same bits.
 #pragma once
 
-#include "sslam/track/loops/loop_closing.hpp"
-#include "sslam/track/upkeep/map_change.hpp"
+#include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/loops/no_loop_closing.hpp"
+#include "sslam/track/mapping/mapping.hpp"
 
 namespace sslam {
 
@@ -23,5 +24,6 @@ struct ImmediateUpkeep {
   const MapChange<S>* finish(Map<S>&) { return nullptr; }
   void forget() {}
 };
+static_assert(UpkeepStage<ImmediateUpkeep<double>, double, KeyframeMapping<double>, NoLoopClosing<double>>);
 
 }  // namespace sslam

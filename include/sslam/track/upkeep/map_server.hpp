@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sslam/track/loops/loop_closing.hpp"
-#include "sslam/track/upkeep/map_messages.hpp"
+#include "sslam/track/contract/concepts.hpp"
 
 namespace sslam {
 

@@ -9,21 +9,35 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/track/worlds/world.hpp"
 
 namespace sslam {
 
 template <Scalar S>
+struct AtlasOptions {
+  std::size_t most = 8;  // worlds; the smallest goes for one more. 0: a map is never left
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("most", self.most, Unit::kCount, 0, 1000,
+          "maps that are kept for when the camera comes back; 0: a lost map is never left");
+  }
+};
+static_assert(Described<AtlasOptions<double>>);
+
+template <Scalar S>
 class Atlas {
  public:
-  std::size_t most = 8;  // worlds; the smallest goes for one more. 0: a map is never left
+  AtlasOptions<S> options;
 
   [[nodiscard]] const std::vector<World<S>>& worlds() const noexcept { return worlds_; }
   [[nodiscard]] std::vector<World<S>>& worlds() noexcept { return worlds_; }
 
   void lay_aside(World<S> world) {
     worlds_.push_back(std::move(world));
-    if (worlds_.size() > most) worlds_.erase(std::min_element(worlds_.begin(), worlds_.end(), smaller));
+    if (worlds_.size() > options.most)
+      worlds_.erase(std::min_element(worlds_.begin(), worlds_.end(), smaller));
   }
 
   // The camera is in another world from now on.
@@ -49,12 +63,12 @@ class Atlas {
   }
 
   // The world of which the keyframe of `map` shows a place, as an earlier one did; null where there is none.
-  template <class Detection>
-  [[nodiscard]] World<S>* met_by(const Map<S>& map, KeyframeId id, Detection& detection) {
+  template <PlaceFinder<S> Finder>
+  [[nodiscard]] World<S>* met_by(const Map<S>& map, KeyframeId id, Finder& finder) {
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
     const auto met = std::find_if(worlds_.begin(), worlds_.end(), [&](World<S>& world) {
-      const std::optional<Loop<S>> place = detection.find(map, id, world.map);
-      return place && detection.check.confirmed(keyframe, world.map, *place, world.met);
+      const std::optional<Loop<S>> place = finder.find(map, id, world.map);
+      return place && finder.confirmed(keyframe, world.map, *place, world.met);
     });
     return met == worlds_.end() ? nullptr : &*met;
   }

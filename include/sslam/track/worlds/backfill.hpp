@@ -8,22 +8,37 @@
 #include <cstdlib>
 #include <deque>
 
-#include "sslam/track/localise/translation.hpp"
+#include "sslam/core/parameter.hpp"
+#include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/mapping/keyframe_cursor.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class Backfill {
- public:
+struct BackfillOptions {
   std::size_t max_frames = 150;  // that are kept while waiting: about 5 s, 100 kB each
   int max_misses = 5;            // frames in a row, as blurred ones are, beyond which a sweep may go on
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_frames", self.max_frames, Unit::kCount, 0, 100000,
+          "without a pose that are kept, 100 kB each, until they can get one; 0: they get none");
+    visit("max_misses", self.max_misses, Unit::kCount, 0, 1000,
+          "frames in a row that may stay without a pose while those behind them get one");
+  }
+};
+static_assert(Described<BackfillOptions<double>>);
+
+template <Scalar S>
+class Backfill {
+ public:
+  BackfillOptions<S> options;
+
   // `placed`: the frame has a pose, in a map that may yet be given up.
   void keep(const TrackedFrame<S>& frame, bool placed) {
-    if (max_frames == 0) return;
-    if (waiting_.size() == max_frames) waiting_.pop_front();
+    if (options.max_frames == 0) return;
+    if (waiting_.size() == options.max_frames) waiting_.pop_front();
     waiting_.push_back({frame, placed});
   }
 
@@ -97,7 +112,7 @@ class Backfill {
   std::ptrdiff_t sweep(Map<S>& map, Fallback& fallback, Refinement& refinement, std::ptrdiff_t begin,
                        std::ptrdiff_t end, std::ptrdiff_t step, Take take, TrajectoryLog<S>& log) {
     std::ptrdiff_t next = begin;
-    for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= max_misses; i += step) {
+    for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= options.max_misses; i += step) {
       Waiting& waiting = waiting_[static_cast<std::size_t>(i)];
       TrackedFrame<S>& frame = waiting.frame;
       const PoseEstimate<S> estimate = track(frame, map, fallback, refinement);

@@ -6,14 +6,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
 
 namespace sslam {
 
 template <Scalar S>
-class MapTrial {
- public:
+struct MapTrialOptions {
   int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
   int give_up_after = 15;      // frames in a row that speak against it until that happens
   int leave_after = 30;        // the same for an older map, until it is left for a new one
@@ -21,8 +21,31 @@ class MapTrial {
   S max_turn = radians(S(5));  // between a pose and what the Manhattan frame says of its rotation, and
   S max_sigmas = 4;            // the same in standard deviations: beyond both they contradict each other
 
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("young_map", self.young_map, Unit::kCount, 0, 1000000,
+          "keyframes: a map that is lost with fewer is given up and begun anew");
+    visit("give_up_after", self.give_up_after, Unit::kCount, 1, 10000,
+          "frames in a row that speak against a young map, until it is given up");
+    visit("leave_after", self.leave_after, Unit::kCount, 1, 1000000,
+          "frames in a row that show enough and have no pose, until a new map is begun");
+    visit("telling_features", self.telling_features, Unit::kCount, 0, 1000000,
+          "points plus lines that make a lost frame speak against the map");
+    visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180,
+          "between a pose and what the Manhattan frame says of its rotation");
+    visit("max_sigmas", self.max_sigmas, Unit::kNumber, 0, 1000,
+          "the same in standard deviations: beyond both they contradict each other");
+  }
+};
+static_assert(Described<MapTrialOptions<double>>);
+
+template <Scalar S>
+class MapTrial {
+ public:
+  MapTrialOptions<S> options;
+
   [[nodiscard]] bool young(const Map<S>& map) const noexcept {
-    return static_cast<int>(map.keyframes.size()) < young_map;
+    return static_cast<int>(map.keyframes.size()) < options.young_map;
   }
   [[nodiscard]] bool lost() const noexcept { return frames_ > 0; }
 
@@ -35,7 +58,7 @@ class MapTrial {
   // not fit does.
   void add_lost(const Frame<S>& frame) noexcept {
     ++frames_;
-    if (static_cast<int>(frame.points.size() + frame.lines.size()) >= telling_features) ++unfit_;
+    if (static_cast<int>(frame.points.size() + frame.lines.size()) >= options.telling_features) ++unfit_;
   }
   void end_loss() noexcept { frames_ = unfit_ = 0; }
 
@@ -51,8 +74,8 @@ class MapTrial {
     if (!frame.manhattan) return false;
     const SO3<S> off = frame.manhattan->cam_from_world * frame.cam_from_world.rotation.inverse();
     const Vec3<S> turn = off.log();
-    return turn.norm() > max_turn &&
-           turn.dot(frame.manhattan->covariance.llt().solve(turn)) > max_sigmas * max_sigmas;
+    return turn.norm() > options.max_turn &&
+           turn.dot(frame.manhattan->covariance.llt().solve(turn)) > options.max_sigmas * options.max_sigmas;
   }
 
   // A young map that a loss speaks against, or one with more frames inconsistent to the Manhattan frame, in a
@@ -64,12 +87,12 @@ class MapTrial {
   // to it.
   [[nodiscard]] bool undecided(const Map<S>& map) const noexcept {
     const bool weighed = square_ + inconsistent_ > 0;
-    return !given_ && (young(map) || (weighed && square_ < give_up_after));
+    return !given_ && (young(map) || (weighed && square_ < options.give_up_after));
   }
 
   // An older map in which the camera has been lost for long. One that was given is never left: its world is
   // where poses are wanted.
-  [[nodiscard]] bool leaves() const noexcept { return !given_ && unfit_ >= leave_after; }
+  [[nodiscard]] bool leaves() const noexcept { return !given_ && unfit_ >= options.leave_after; }
 
   // Another map begins. Where one after the other is inconsistent, the world is not as square as it looks:
   // each of them is given twice the time.
@@ -80,10 +103,10 @@ class MapTrial {
 
  private:
   [[nodiscard]] bool lost_young(const Map<S>& map) const noexcept {
-    return unfit_ >= give_up_after && young(map);
+    return unfit_ >= options.give_up_after && young(map);
   }
   [[nodiscard]] int patience() const noexcept {
-    return std::max(give_up_after << std::min(given_up_, 16), square_);
+    return std::max(options.give_up_after << std::min(given_up_, 16), square_);
   }
 
   int frames_ = 0;        // in a row

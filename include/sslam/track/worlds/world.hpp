@@ -6,10 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "sslam/track/loops/loop_closing.hpp"
-#include "sslam/track/loops/place_match.hpp"
+#include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/mapping/keyframe_cursor.hpp"
-#include "sslam/track/upkeep/map_change.hpp"
 #include "sslam/track/worlds/map_trial.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
@@ -32,7 +30,7 @@ struct World {
   }
 
   // `other`, the camera's world until now, becomes part of this one, where one of its keyframes was met.
-  template <class Loops>
+  template <LoopStage<S> Loops>
   MapJoint<S> take_in(World other, const Loop<S>& place, Loops& loops) {
     const KeyframeId id = other.cursor.reference();
     const MapJoint<S> joint = loops.merge(map, std::move(other.map), id, place);

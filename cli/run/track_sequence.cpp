@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run/track_sequence.hpp"
+
+#include "cli/results/map_figures.hpp"
+#include "cli/shell/interrupt.hpp"
+#include "sslam/system/wall_timer.hpp"
+
+namespace sslam::cli {
+
+void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, std::size_t known_keyframes) {
+  RunOutcome& outcome = recorder.outcome;
+  outcome.parameters = system.parameters();
+  const Interrupt interrupt;
+  WallTimer wall;
+  wall.begin();
+  ExtractedFrame input;
+  while (!Interrupt::asked() && stream.next(input)) {
+    if (!input.warning.empty()) system.warn(input.warning);
+    if (input.usable()) (void)system.track(input);
+  }
+  if (system.finish() && !outcome.frames.empty()) outcome.frames.back().loop_closed = true;
+  outcome.wall_seconds = wall.total() * 1e-3;
+  outcome.interrupted = Interrupt::asked();
+  outcome.map = system.map();
+  outcome.world = system.world();
+  outcome.apart = system.apart();
+  outcome.keyframes_not_made = system.keyframes_not_made();
+  outcome.keyframes = keyframe_poses(system.map(), known_keyframes);
+  outcome.trajectory = system.trajectory();
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The members of BasicSystem, for who brings a front end of his own; src/system.cpp compiles those of System.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sslam/io/maps/map_file.hpp"
+#include "sslam/system/parameters.hpp"
+#include "sslam/system/system.hpp"
+
+namespace sslam {
+
+template <class Frontend>
+void BasicSystem<Frontend>::check(const Settings& settings) const {
+  const Camera<double>& camera = settings.camera;
+  const auto& k = camera.pinhole;
+  if (camera.width <= 0 || camera.height <= 0)
+    throw SettingsError("camera", "the width and height of its images are missing");
+  const bool finite =
+      std::isfinite(k.fx) && std::isfinite(k.fy) && std::isfinite(k.cx) && std::isfinite(k.cy);
+  if (!finite || !(k.fx > 0) || !(k.fy > 0))
+    throw SettingsError("camera", "fx and fy must be positive and finite, cx and cy finite");
+  if (settings.normals.from_depth() && !(settings.depth_factor > 0 && std::isfinite(settings.depth_factor)))
+    throw SettingsError("depth_factor", "normals from depth need the value of one metre, above 0");
+}
+
+template <class Frontend>
+BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(settings)) {
+  check(settings_);
+  try {
+    preset_ = find_preset(settings_.preset);
+  } catch (const Error& error) {
+    throw SettingsError("preset", error.what());
+  }
+  if (settings_.live && preset_.make_live == nullptr)
+    throw SettingsError("live", "the preset " + preset_.name + " has no mapping in a thread of its own");
+  engine_ = settings_.live ? preset_.make_live() : preset_.make();
+  engine_->seed(settings_.seed);
+  engine_->create_points(preset_.new_points);
+  reads_depth_ = settings_.normals.from_depth();
+  frontend_ = std::make_unique<Frontend>();
+  frontend_->camera = settings_.camera;
+  frontend_->normals = std::move(settings_.normals);
+  parameters_ = all_parameters(*engine_, *frontend_);
+  const ParameterAnswer answer = set_parameters(settings_.parameters, parameters_);
+  if (!answer.ok()) throw SettingsError("parameters", answer.message);
+  engine_->write(parameters_);
+  write_frontend_parameters(parameters_, *frontend_);
+}
+
+template <class Frontend>
+BasicSystem<Frontend>::~BasicSystem() = default;
+
+template <class Frontend>
+void BasicSystem<Frontend>::extract(const ImageInput& input, Extraction& out) {
+  out.report = frontend_->process(input, out.frame);
+  out.picture = out.normal_picture = cv::Mat();
+  if (!out.usable()) return;
+  if (settings_.keep_pictures) {
+    out.picture = input.image;
+    const bool seen =
+        out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
+    if (seen) out.normal_picture = frontend_->normals.small_picture();
+  }
+  if (!preset_.use_points) out.frame.points.clear();
+  if (!preset_.use_lines) out.frame.lines.clear();
+}
+
+template <class Frontend>
+FrameReport BasicSystem<Frontend>::track(const ImageInput& input) {
+  extract(input, extraction_);
+  return track(extraction_);
+}
+
+template <class Frontend>
+FrameReport BasicSystem<Frontend>::track(const cv::Mat& image, const cv::Mat& depth, double stamp) {
+  ImageInput input;
+  input.index = frames_;
+  input.stamp = stamp;
+  input.image = image;
+  input.depth = depth;
+  input.depth_factor = settings_.depth_factor;
+  return track(input);
+}
+
+template <class Frontend>
+FrameReport BasicSystem<Frontend>::track(const cv::Mat& image, double stamp) {
+  return track(image, cv::Mat(), stamp);
+}
+
+template <class Frontend>
+FrameReport BasicSystem<Frontend>::track(const ImageRef& image, double stamp) {
+  return track(to_mat(image), cv::Mat(), stamp);
+}
+
+template <class Frontend>
+FrameReport BasicSystem<Frontend>::track(Extraction& extraction) {
+  FrameReport report;
+  report.input = input_status(extraction.report.image);
+  const double stamp = extraction.frame.stamp;
+  if (finished_) {
+    report.input = InputStatus::kFinished;
+  } else if (extraction.usable() && (!std::isfinite(stamp) || (last_stamp_ && !(stamp > *last_stamp_)))) {
+    report.input = InputStatus::kBadStamp;
+  }
+  if (report.input != InputStatus::kOk) return report;
+  last_stamp_ = stamp;
+  ++frames_;
+  report.points = static_cast<int>(extraction.frame.points.size());
+  report.lines = static_cast<int>(extraction.frame.lines.size());
+  report.normals = static_cast<int>(extraction.frame.normals.size());
+  report.normal_status = extraction.report.normals;
+  const auto milliseconds = [](double seconds) { return static_cast<float>(seconds * 1e3); };
+  report.points_ms = milliseconds(extraction.report.points_time);
+  report.lines_ms = milliseconds(extraction.report.lines_time);
+  report.normals_ms = milliseconds(extraction.report.normals_time);
+  report.extraction_ms = milliseconds(extraction.report.total_time);
+  static_cast<TrackResult<double>&>(report) = engine_->track(extraction.frame);
+  report.tracking_ms = engine_->tracking_ms();
+  report.stage_ms = engine_->stage_ms();
+  note_latest(report);
+  tell(report, extraction);
+  return report;
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::note_latest(const FrameReport& report) {
+  const std::lock_guard lock(latest_mutex_);
+  latest_ = {report.stamp, report.state, std::nullopt, report.world};
+  if (report.has_pose()) latest_.world_from_cam = report.cam_from_world.inverse();
+}
+
+template <class Frontend>
+LatestPose BasicSystem<Frontend>::latest() const {
+  const std::lock_guard lock(latest_mutex_);
+  return latest_;
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::tell(const FrameReport& report, const Extraction& extraction) {
+  const bool another_map = std::exchange(last_world_, report.world) != report.world;
+  if (observers_.empty()) return;
+  const FrameEvent event{report, extraction, engine_->last_frame(), engine_->map(), engine_->trajectory()};
+  const auto each = [&](void (Observer::*called)(const FrameEvent&)) {
+    for (Observer* observer : observers_) (observer->*called)(event);
+  };
+  each(&Observer::frame_tracked);
+  if (report.keyframe) each(&Observer::keyframe_made);
+  if (report.loop_closed) each(&Observer::loop_closed);
+  if (report.maps_joined) each(&Observer::maps_joined);
+  if (report.keyframe || report.loop_closed || report.maps_joined || another_map)
+    each(&Observer::map_changed);
+}
+
+template <class Frontend>
+bool BasicSystem<Frontend>::finish() {
+  return !std::exchange(finished_, true) && engine_->finish();
+}
+
+template <class Frontend>
+io::Trajectory BasicSystem<Frontend>::trajectory() const {
+  io::Trajectory poses;
+  const TrajectoryLog<double>& log = engine_->trajectory();
+  poses.reserve(log.entries().size());
+  for (const auto& entry : log.entries())
+    poses.push_back({entry.stamp, TrajectoryLog<double>::pose(engine_->map(), entry).inverse()});
+  const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };
+  std::stable_sort(poses.begin(), poses.end(), earlier);
+  return poses;
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::save(const std::filesystem::path& path) const {
+  io::save_map(path, engine_->map());
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::load(const std::filesystem::path& path) {
+  resume(io::load_map(path));
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::resume(Map<double> map) {
+  engine_->resume(std::move(map));
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::add_observer(Observer& observer) {
+  observers_.push_back(&observer);
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::remove_observer(Observer& observer) {
+  std::erase(observers_, &observer);
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::warn(const std::string& line) {
+  for (Observer* observer : observers_) observer->warning(line);
+}
+
+}  // namespace sslam

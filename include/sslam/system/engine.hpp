@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tracker behind a System: some pipeline, chosen once by its preset. One virtual call a frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "sslam/core/parameter_table.hpp"
+#include "sslam/map/map.hpp"
+#include "sslam/track/contract/result.hpp"
+#include "sslam/track/contract/stage_timer.hpp"
+#include "sslam/track/contract/tracked_frame.hpp"
+#include "sslam/track/worlds/trajectory_log.hpp"
+
+namespace sslam {
+
+// Maps that were left and never joined with the one that is kept, and the frames that were tracked in them.
+struct MapsApart {
+  std::size_t maps = 0, frames = 0;
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual TrackResult<double> track(Frame<double>& frame) = 0;  // swaps the frame's buffers for others
+  virtual bool finish() = 0;                                    // true if that closed a loop
+  virtual void resume(Map<double> map) = 0;
+  virtual void localise_only(bool on) = 0;
+
+  [[nodiscard]] virtual const Map<double>& map() const = 0;
+  [[nodiscard]] virtual const TrajectoryLog<double>& trajectory() const = 0;
+  [[nodiscard]] virtual const TrackedFrame<double>& last_frame() const = 0;
+  [[nodiscard]] virtual int world() const = 0;
+  [[nodiscard]] virtual MapsApart apart() const = 0;
+  [[nodiscard]] virtual int keyframes_not_made() const = 0;
+  [[nodiscard]] virtual float tracking_ms() const = 0;  // of the last frame, so far
+  [[nodiscard]] virtual const std::array<float, kStageCount>& stage_ms() const = 0;
+
+  virtual void seed(std::uint64_t seed) = 0;
+  virtual void create_points(bool on) = 0;                // false: no points but those that start the map
+  virtual void collect(ParameterTable& table) const = 0;  // the pipeline's parameters
+  virtual void write(const ParameterTable& table) = 0;    // those that were set
+};
+
+}  // namespace sslam

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An image on its way to the tracker: what the front end has found in it.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "sslam/map/frame.hpp"
+#include "sslam/opencv/image_frontend.hpp"
+
+namespace sslam {
+
+struct Extraction {
+  Frame<double> frame;
+  FrontendReport report;
+  std::string label;  // what the caller calls the image, for observers
+  // The image and its normals in small, where Settings::keep_pictures asks for them; empty otherwise.
+  cv::Mat picture, normal_picture;
+
+  [[nodiscard]] bool usable() const noexcept { return report.image == ImageStatus::kOk; }
+};
+
+}  // namespace sslam

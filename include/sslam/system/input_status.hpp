@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a System says of the input of one call. Anything but kOk: the frame is left out, and the system is as
+// it was before the call.
+#pragma once
+
+#include <cstdint>
+
+#include "sslam/opencv/image_frontend.hpp"
+
+namespace sslam {
+
+enum class InputStatus : std::uint8_t {
+  kOk,
+  kEmptyImage,
+  kWrongSize,
+  kWrongType,
+  kBadStamp,  // not finite, or not later than that of the frame before
+  kFinished,  // after finish()
+};
+
+[[nodiscard]] constexpr InputStatus input_status(ImageStatus status) noexcept {
+  switch (status) {
+    case ImageStatus::kOk:
+      return InputStatus::kOk;
+    case ImageStatus::kEmpty:
+      return InputStatus::kEmptyImage;
+    case ImageStatus::kWrongSize:
+      return InputStatus::kWrongSize;
+    case ImageStatus::kWrongType:
+      return InputStatus::kWrongType;
+  }
+  return InputStatus::kEmptyImage;
+}
+
+[[nodiscard]] constexpr const char* name(InputStatus status) noexcept {
+  switch (status) {
+    case InputStatus::kOk:
+      return "ok";
+    case InputStatus::kEmptyImage:
+      return name(ImageStatus::kEmpty);
+    case InputStatus::kWrongSize:
+      return name(ImageStatus::kWrongSize);
+    case InputStatus::kWrongType:
+      return name(ImageStatus::kWrongType);
+    case InputStatus::kBadStamp:
+      return "the stamp is not later than that of the frame before";
+    case InputStatus::kFinished:
+      return "the system has finished";
+  }
+  return "unknown";
+}
+
+}  // namespace sslam

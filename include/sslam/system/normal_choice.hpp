@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The source of surface normals that is chosen at run time, behind the front end's concept.
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "sslam/core/parameter_table.hpp"
+#include "sslam/opencv/normals/depth_normals.hpp"
+#include "sslam/opencv/normals/file_normals.hpp"
+#include "sslam/opencv/normals/no_normals.hpp"
+#include "sslam/opencv/normals/normal_picture.hpp"
+#include "sslam/opencv/normals/onnx_normals.hpp"
+
+namespace sslam {
+
+struct NormalChoice {
+  std::variant<NoNormals, DepthNormals, FileNormals, OnnxNormals> source;
+
+  [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
+    return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
+  }
+
+  // Of the chosen source, whose name comes before theirs: "depth.max_depth".
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    if (auto* depth = std::get_if<DepthNormals>(&self.source)) visit_stage("depth.", *depth, visit);
+    if (auto* files = std::get_if<FileNormals>(&self.source)) visit_stage("files.", *files, visit);
+    if (auto* network = std::get_if<OnnxNormals>(&self.source)) visit_stage("onnx.", *network, visit);
+  }
+
+  [[nodiscard]] bool from_depth() const noexcept { return std::holds_alternative<DepthNormals>(source); }
+
+  // The normals of the last frame, to look at; empty where there is no source of them.
+  [[nodiscard]] cv::Mat small_picture() const {
+    constexpr int kColumns = 128;
+    if (const auto* network = std::get_if<OnnxNormals>(&source)) {
+      if (network->manifest().kind != NetworkOutput::kNormals)
+        return small_normal_picture(network->depth().grid());
+      const double min_planar = network->options.evidence.min_planar;
+      return small_normal_picture(sample_normals(network->dense(), min_planar, kColumns));
+    }
+    if (const auto* depth = std::get_if<DepthNormals>(&source)) return small_normal_picture(depth->grid());
+    if (const auto* files = std::get_if<FileNormals>(&source)) return small_normal_picture(files->grid());
+    return {};
+  }
+};
+static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);
+
+// Those of every source, with their defaults.
+inline void collect_normal_parameters(ParameterTable& table) {
+  const DepthNormalsOptions depth;
+  const FileNormalsOptions files;
+  const OnnxNormalsOptions network;
+  table.collect([&](auto& visit) {
+    visit_within("normals.depth.", depth, visit);
+    visit_within("normals.files.", files, visit);
+    visit_within("normals.onnx.", network, visit);
+  });
+}
+
+}  // namespace sslam

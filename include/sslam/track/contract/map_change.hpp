@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What has become of the map between two of its snapshots, for those who stand in it.
+#pragma once
+
+#include <vector>
+
+#include "sslam/track/contract/map_messages.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct MapChange {
+  const Map<S>* before = nullptr;
+  const Map<S>* now = nullptr;
+  const std::vector<S>* scales_before = nullptr;  // as in MapSnapshot
+  const std::vector<S>* scales_now = nullptr;
+  std::size_t known = 0;  // keyframes that the snapshot before had
+  bool loop_closed = false;
+
+  // What lengths at the keyframe are multiplied by.
+  [[nodiscard]] S scale_at(KeyframeId keyframe) const {
+    return (*scales_now)[Map<S>::index(keyframe)] / (*scales_before)[Map<S>::index(keyframe)];
+  }
+
+  // cam_from_world of what stands fast by the keyframe.
+  [[nodiscard]] SE3<S> pose(KeyframeId keyframe, const SE3<S>& cam_from_world) const {
+    SE3<S> cam_from_keyframe = cam_from_world * before->pose(keyframe).inverse();
+    cam_from_keyframe.translation *= scale_at(keyframe);
+    return cam_from_keyframe * now->pose(keyframe);
+  }
+
+  void forget_gone_matches(std::vector<LandmarkId>& point_landmarks,
+                           std::vector<LandmarkId>& line_landmarks) const {
+    forget_gone(point_landmarks, now->points, known);
+    forget_gone(line_landmarks, now->lines, known);
+  }
+
+  // A frame goes along; it loses the matches with landmarks that are gone.
+  void carry(KeyframeId reference, TrackedFrame<S>& frame) const {
+    frame.cam_from_world = pose(reference, frame.cam_from_world);
+    forget_gone_matches(frame.point_landmarks, frame.line_landmarks);
+  }
+};
+
+}  // namespace sslam

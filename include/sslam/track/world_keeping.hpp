@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which world the camera is in: worlds are begun, left, entered again and joined, and all that the stages
+// remember of one follows.
+#pragma once
+
+#include <utility>
+
+#include "sslam/track/pose_tracking.hpp"
+#include "sslam/track/worlds/atlas.hpp"
+#include "sslam/track/worlds/backfill.hpp"
+
+namespace sslam {
+
+template <Scalar S, StageSet<S> Stages>
+class WorldKeeping : public PoseTracking<S, Stages> {
+ public:
+  using PoseTracking<S, Stages>::rotation, PoseTracking<S, Stages>::motion;
+  typename Stages::Initialisation initialisation;
+  typename Stages::Keyframes keyframes;
+  typename Stages::Mapping mapping;
+  typename Stages::Loops loops;
+  Backfill<S> backfill;
+  MapTrial<S> trial;
+  Atlas<S> atlas;
+  typename Stages::Upkeep
+      upkeep;  // after the stages that it may still be at work with when the pipeline ends
+
+ protected:
+  [[nodiscard]] const Keyframe<S>& reference() const {
+    return world_.map.keyframes[world_.map.index(world_.cursor.reference())];
+  }
+
+  // The map has changed under the frames in hand; true if a loop was closed.
+  bool follow_map(const MapChange<S>* change) {
+    if (change == nullptr) return false;
+    const KeyframeId fixed = world_.cursor.reference();
+    for (TrackedFrame<S>& frame : frames_.all()) change->carry(fixed, frame);
+    motion.move_to(frames_.current().cam_from_world, change->scale_at(fixed));
+    world_.follow(*change);
+    return change->loop_closed;
+  }
+
+  // The map of this world refutes it, or the camera has left it.
+  void give_up_world(bool lay_aside) {
+    if (lay_aside) {
+      leave_world();
+      atlas.lay_aside(std::move(world_));
+    }
+    start_over({});
+    world_.number = ++last_number_;
+  }
+
+  void start_over(Map<S> map) {
+    upkeep.forget();
+    world_ = {};
+    world_.map = std::move(map);
+    trial.begin_again();
+    frames_.current().forget_manhattan();
+    enter_world();
+  }
+
+  // The current frame is in the other world, and what was the world until now is laid aside for it.
+  void change_places(World<S>& other) {
+    leave_world();
+    std::swap(world_, other);
+    trial = world_.trial;
+    frames_.change_world();
+    enter_world();
+  }
+
+  // The camera's world becomes part of a known one, where the current frame shows a place of that.
+  void join(World<S> known, const Loop<S>& place) {
+    const MapJoint<S> joint = known.take_in(std::move(world_), place, loops);
+    world_ = std::move(known);
+    for (TrackedFrame<S>& frame : frames_.all()) {
+      joint.shift.apply_to_matches(frame.point_landmarks, frame.line_landmarks);
+      frame.cam_from_world = carried(joint.moved, frame.cam_from_world);
+    }
+    TrackedFrame<S>& frame = frames_.current();
+    frame.read_back(reference());
+    motion.move_to(frame.cam_from_world, joint.moved.scale);
+    rotation.forget();
+    trial = world_.trial;
+    trial.end_loss();
+    atlas.forget_place_matches();
+  }
+
+  World<S> world_;
+  FrameHistory<S> frames_;
+  decltype(std::as_const(loops).finder()) finder_;  // for worlds that were left
+
+ private:
+  // What mapping elsewhere has still to say comes in, and nothing after that.
+  void leave_world() {
+    if (const MapChange<S>* change = upkeep.finish(world_.map)) world_.follow(*change);
+    upkeep.forget();
+    world_.trial = trial;
+    finder_ = loops.finder();
+  }
+
+  // The world is another one: what the stages remember was of that before it.
+  void enter_world() {
+    rotation.forget();
+    initialisation.reset();
+    loops.forget();
+    motion.stop();
+    backfill.leave_world();
+    atlas.forget_place_matches();
+  }
+
+  int last_number_ = 0;
+};
+
+}  // namespace sslam

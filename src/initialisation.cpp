@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslam/system/compiled_stages.hpp"
+
+namespace sslam {
+
+template class DecoupledInitialisation<double>;
+
+}  // namespace sslam
