@@ -17,6 +17,7 @@
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/man_page.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/version.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -53,7 +53,7 @@ void run(RunSettings settings) {
   }
   Settings wanted;
   wanted.preset = settings.preset;
-  wanted.parameters = check_overrides(preset, settings.set);
+  wanted.parameters = set_parameters(preset, settings.set);
   Map<double> known;
   if (!settings.map.empty()) known = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);

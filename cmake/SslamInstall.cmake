@@ -6,6 +6,9 @@ set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/sslam")
 
 foreach(component core io live synth opencv ceres system)
   if(TARGET sslam_${component})
+    if(component STREQUAL "system")
+      install(TARGETS sslam_stages EXPORT sslam_system ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+    endif()
     install(TARGETS sslam_${component} EXPORT sslam_${component}
             ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
             FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)

@@ -10,6 +10,7 @@
 #include "cli/results/eval_report.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/maps/checksum.hpp"
+#include "sslam/version.hpp"
 
 namespace sslam::cli {
 namespace {

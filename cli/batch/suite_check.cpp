@@ -20,7 +20,8 @@ class SuiteCheck {
       in(suite_.against_line, "against", [&] { (void)read_plan(earlier); });
     for (const SuiteMethod& method : suite_.methods) {
       in(method.preset_line, "[[method]]", [&] { (void)choose_preset(method.preset); });
-      in(method.set_line, "[[method]]", [&] { check_overrides(choose_preset(method.preset), method.set); });
+      in(method.set_line, "[[method]]",
+         [&] { (void)set_parameters(choose_preset(method.preset), method.set); });
     }
     std::vector<SequenceFacts> facts;
     for (const SuiteSequence& sequence : suite_.sequences) facts.push_back(check_sequence(sequence));

@@ -16,6 +16,7 @@
 #include "sslam/io/maps/byte_archive.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 #include "sslam/map/plane_extent.hpp"
+#include "sslam/version.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -21,6 +21,7 @@
 #include "sslam/io/maps/map_file.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 #include "sslam/io/plots/svg_plot.hpp"
+#include "sslam/version.hpp"
 
 namespace sslam::cli {
 namespace {

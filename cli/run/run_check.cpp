@@ -75,11 +75,11 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
     throw Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
 
-std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
+std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set) {
   std::vector<ParameterValue> overrides;
   for (const std::string& text : set) overrides.push_back(parse_override(text));
   ParameterTable table = all_parameters(preset);
-  const ParameterAnswer answer = set_parameters(overrides, table);
+  const ParameterAnswer answer = sslam::set_parameters(overrides, table);
   if (!answer.ok()) throw Error("--set " + answer.message);
   return overrides;
 }

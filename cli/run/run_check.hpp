@@ -28,7 +28,8 @@ void check_live(const RunSettings& settings, const Preset& preset);
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 
 // Each "stage.parameter=value", if the preset has all these parameters and they take these values.
-std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set);
+[[nodiscard]] std::vector<ParameterValue> set_parameters(const Preset& preset,
+                                                         const std::vector<std::string>& set);
 
 // Every parameter of the fullest preset by stage: name, default, unit, range and meaning, a line each.
 [[nodiscard]] std::string describe_parameters();

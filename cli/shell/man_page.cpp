@@ -5,6 +5,7 @@
 
 #include "cli/shell/option_info.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/version.hpp"
 
 namespace sslam::cli {
 namespace {

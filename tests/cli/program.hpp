@@ -4,10 +4,12 @@
 
 #include <sys/wait.h>
 
-#include <array>
+#include <csignal>
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace sslam::testing {
 
@@ -16,13 +18,19 @@ struct Outcome {
   std::string text;  // standard output and error together
 };
 
-// By the shell, standard error with standard output.
-[[nodiscard]] inline Outcome run_command(const std::string& command) {
+// By the shell, standard error with standard output. `hear` is given each line as it comes.
+[[nodiscard]] inline Outcome run_command(const std::string& command,
+                                         const std::function<void(const std::string&)>& hear = {}) {
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot start " + command);
-  std::string text;
-  std::array<char, 512> buffer;
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) text += buffer.data();
+  std::string text, line;
+  for (int byte = std::fgetc(pipe); byte != EOF; byte = std::fgetc(pipe)) {
+    line += static_cast<char>(byte);
+    if (byte != '\n') continue;
+    if (hear) hear(line);
+    text += std::exchange(line, {});
+  }
+  text += line;
   const int status = pclose(pipe);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
 }
@@ -32,12 +40,18 @@ struct Outcome {
   return run_command(before + std::string(SSLAM_COMMAND) + " " + arguments + " 2>&1");
 }
 
-// As by Ctrl-C, a moment after the file or folder `begun` is there; a machine may be so fast that all is done
-// by then.
-[[nodiscard]] inline Outcome interrupt_program(const std::string& arguments, const std::string& begun) {
-  return run_command("exec 2>&1; " + std::string(SSLAM_COMMAND) + " " + arguments +
-                     " & while kill -0 $! && ! test -e " + begun +
-                     "; do sleep 0.05; done; sleep 0.4; kill -INT $!; wait $!");
+// As by Ctrl-C, as soon as the program tells of its first frame or image; it may be so fast that all is done
+// by then. What it told of its progress is part of the text.
+[[nodiscard]] inline Outcome interrupt_program(const std::string& arguments) {
+  int process = 0;
+  const std::string command = "exec 2>&1; echo $$; exec " + std::string(SSLAM_COMMAND) + " " + arguments;
+  return run_command(command + " --json-progress", [&process](const std::string& line) {
+    if (process == 0) {
+      process = std::stoi(line);
+    } else if (process > 0 && line.find("\"done\":1,") != std::string::npos) {
+      kill(std::exchange(process, -1), SIGINT);
+    }
+  });
 }
 
 }  // namespace sslam::testing

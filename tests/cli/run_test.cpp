@@ -335,8 +335,7 @@ TEST_CASE("run refuses a ground truth on another clock") {
 TEST_CASE("run writes what it has when it is interrupted") {
   const Copy copy;
   const Outcome outcome =
-      interrupt_program("run " + copy.folder.string() + " --quiet --normals none --out " + copy.out.string(),
-                        copy.out.string());
+      interrupt_program("run " + copy.folder.string() + " --normals none --out " + copy.out.string());
   INFO(outcome.text);
   const bool interrupted =
       outcome.text.find("interrupted; what had been computed was written") != std::string::npos;

@@ -187,9 +187,8 @@ TEST_CASE("a video that a full disk cuts off is not left behind, and the results
 TEST_CASE("a run that is interrupted leaves a video of what it had") {
   const RoomCopy copy;
   const fs::path file = copy.scratch.path() / "look.mp4";
-  const Outcome outcome = interrupt_program("run " + copy.folder.string() + " --quiet --normals none --out " +
-                                                copy.out.string() + " --video " + file.string(),
-                                            copy.out.string());
+  const Outcome outcome = interrupt_program("run " + copy.folder.string() + " --normals none --out " +
+                                            copy.out.string() + " --video " + file.string());
   INFO(outcome.text);
   if (outcome.code == 0) WARN("the run was over before it could be interrupted");
   const std::size_t rows = states(copy.out).size();

@@ -50,6 +50,7 @@ elseif(VIA STREQUAL "subdirectory")
   list(APPEND options "-DSSLAM_SOURCE_DIR=${SOURCE_DIR}")
 endif()
 
-run(${CMAKE_COMMAND} -S "${source}" -B "${build}" ${options} "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}")
+run(${CMAKE_COMMAND} -S "${source}" -B "${build}" ${options} "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}"
+    -G "${GENERATOR}")
 run(${CMAKE_COMMAND} --build "${build}")
 run("${build}/consumer")

@@ -35,16 +35,13 @@ class Simulation {
   [[nodiscard]] const SE3<double>& truth(std::size_t k) const { return scene_.poses[k]; }
 
   // What the front end would hand over for frame k, at 30 frames a second.
-  [[nodiscard]] Frame<double> frame(std::size_t k) {
-    Keyframe<double> seen = scene_.make_keyframe(k, scene_.poses[k]);
-    for (std::size_t i = 0; i < seen.frame.points.size(); ++i)
-      seen.frame.points[i].descriptor =
-          noisy(point_descriptors_[Map<double>::index(seen.point_landmarks[i])]);
-    for (std::size_t i = 0; i < seen.frame.lines.size(); ++i)
-      seen.frame.lines[i].descriptor = noisy(line_descriptors_[Map<double>::index(seen.line_landmarks[i])]);
-    seen.frame.index = static_cast<std::int64_t>(k);
-    seen.frame.stamp = static_cast<double>(k) / 30;
-    return std::move(seen.frame);
+  [[nodiscard]] Frame<double> frame(std::size_t k) { return std::move(see(k).frame); }
+
+  // With the true geometry and a keyframe at each `step`-th pose.
+  [[nodiscard]] Map<double> true_map(std::size_t step) {
+    Map<double> map = scene_.make_landmarks();
+    for (std::size_t k = 0; k < size(); k += step) map.add_keyframe(see(k));
+    return map;
   }
 
   // An image with nothing on it: a covered lens.
@@ -56,6 +53,18 @@ class Simulation {
   }
 
  private:
+  [[nodiscard]] Keyframe<double> see(std::size_t k) {
+    Keyframe<double> seen = scene_.make_keyframe(k, scene_.poses[k]);
+    for (std::size_t i = 0; i < seen.frame.points.size(); ++i)
+      seen.frame.points[i].descriptor =
+          noisy(point_descriptors_[Map<double>::index(seen.point_landmarks[i])]);
+    for (std::size_t i = 0; i < seen.frame.lines.size(); ++i)
+      seen.frame.lines[i].descriptor = noisy(line_descriptors_[Map<double>::index(seen.line_landmarks[i])]);
+    seen.frame.index = static_cast<std::int64_t>(k);
+    seen.frame.stamp = static_cast<double>(k) / 30;
+    return seen;
+  }
+
   static Descriptor draw(Random& random) {
     Descriptor d;
     for (auto& word : d.words) word = random.next();

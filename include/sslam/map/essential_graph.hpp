@@ -68,31 +68,11 @@ class EssentialGraph {
   PoseGraph<S> graph;
 
   // Rotations that keyframes know from the Manhattan frame are tied to it. The first keyframe is held.
-  void gather(const Map<S>& map, const BundleWindowOptions<S>& window) {
-    keyframes.clear();
-    depths_.clear();
-    graph.clear();
-    node_of_.assign(map.keyframes.size(), kNone);
-    for (const Keyframe<S>& kf : map.keyframes) {
-      if (!kf.alive()) continue;
-      node_of_[map.index(kf.id)] = static_cast<std::int32_t>(keyframes.size());
-      keyframes.push_back(kf.id);
-      depths_.push_back(depth(map, kf));
-      PoseGraphNode<S> node;
-      node.cam_from_world = similarity(kf.cam_from_world);
-      node.held = keyframes.size() == 1;
-      if (window.manhattan && kf.manhattan) node.rotation = make_tie(*kf.manhattan, window.rotation_floor);
-      graph.nodes.push_back(node);
-    }
-    for (std::size_t n = 1; n < keyframes.size(); ++n) add_edges(map, n);
-  }
+  void gather(const Map<S>& map, const BundleWindowOptions<S>& window);
 
   // The motion across a loop, by `shared` landmarks.
   void add_loop(const Map<S>& map, KeyframeId from, KeyframeId to, const Sim3<S>& to_from,
-                std::int32_t shared) {
-    add_edge(node_of_[map.index(from)], node_of_[map.index(to)], to_from, shared);
-    graph.edges.back().inverse_sigma *= options.loop_certainty;
-  }
+                std::int32_t shared);
 
  private:
   // To each older neighbour that shares enough, and to the one that shares most; without any, to the one
@@ -128,5 +108,32 @@ class EssentialGraph {
   std::vector<S> depths_;              // by node
   std::vector<S> seen_;                // scratch of depth()
 };
+
+template <Scalar S>
+void EssentialGraph<S>::gather(const Map<S>& map, const BundleWindowOptions<S>& window) {
+  keyframes.clear();
+  depths_.clear();
+  graph.clear();
+  node_of_.assign(map.keyframes.size(), kNone);
+  for (const Keyframe<S>& kf : map.keyframes) {
+    if (!kf.alive()) continue;
+    node_of_[map.index(kf.id)] = static_cast<std::int32_t>(keyframes.size());
+    keyframes.push_back(kf.id);
+    depths_.push_back(depth(map, kf));
+    PoseGraphNode<S> node;
+    node.cam_from_world = similarity(kf.cam_from_world);
+    node.held = keyframes.size() == 1;
+    if (window.manhattan && kf.manhattan) node.rotation = make_tie(*kf.manhattan, window.rotation_floor);
+    graph.nodes.push_back(node);
+  }
+  for (std::size_t n = 1; n < keyframes.size(); ++n) add_edges(map, n);
+}
+
+template <Scalar S>
+void EssentialGraph<S>::add_loop(const Map<S>& map, KeyframeId from, KeyframeId to, const Sim3<S>& to_from,
+                                 std::int32_t shared) {
+  add_edge(node_of_[map.index(from)], node_of_[map.index(to)], to_from, shared);
+  graph.edges.back().inverse_sigma *= options.loop_certainty;
+}
 
 }  // namespace sslam

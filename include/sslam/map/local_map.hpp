@@ -31,7 +31,7 @@ class LocalMap {
     for (std::size_t k = 0; k < votes_.size(); ++k)
       if (votes_[k] > 0) keyframes.push_back(static_cast<KeyframeId>(k));
     // Ties go to the newer keyframe.
-    std::stable_sort(keyframes.begin(), keyframes.end(), [&](KeyframeId a, KeyframeId b) {
+    std::sort(keyframes.begin(), keyframes.end(), [&](KeyframeId a, KeyframeId b) {
       const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
       return va != vb ? va > vb : a > b;
     });

@@ -34,16 +34,10 @@ class MapAdjustment {
   }
 
   // The keyframe and its closest neighbours move, what surrounds them is held: a MapOptimiser.
-  BundleSummary optimise(Map<S>& map, KeyframeId keyframe) {
-    window_.gather_local(map, keyframe, window_options);
-    return adjust(map);
-  }
+  BundleSummary optimise(Map<S>& map, KeyframeId keyframe);
 
   // Every keyframe moves; the first keeps its place.
-  BundleSummary optimise_all(Map<S>& map) {
-    window_.gather_all(map, window_options);
-    return adjust(map);
-  }
+  BundleSummary optimise_all(Map<S>& map);
 
  private:
   BundleSummary adjust(Map<S>& map) {
@@ -55,5 +49,17 @@ class MapAdjustment {
 
   BundleWindow<S> window_;
 };
+
+template <Scalar S, GraphSolver<S> Solver>
+BundleSummary MapAdjustment<S, Solver>::optimise(Map<S>& map, KeyframeId keyframe) {
+  window_.gather_local(map, keyframe, window_options);
+  return adjust(map);
+}
+
+template <Scalar S, GraphSolver<S> Solver>
+BundleSummary MapAdjustment<S, Solver>::optimise_all(Map<S>& map) {
+  window_.gather_all(map, window_options);
+  return adjust(map);
+}
 
 }  // namespace sslam

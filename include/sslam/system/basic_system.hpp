@@ -43,8 +43,13 @@ BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(sett
   frontend_ = std::make_unique<Frontend>();
   frontend_->camera = settings_.camera;
   frontend_->normals = std::move(settings_.normals);
+  set_parameters();
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::set_parameters() {
   parameters_ = all_parameters(*engine_, *frontend_);
-  const ParameterAnswer answer = set_parameters(settings_.parameters, parameters_);
+  const ParameterAnswer answer = sslam::set_parameters(settings_.parameters, parameters_);
   if (!answer.ok()) throw SettingsError("parameters", answer.message);
   engine_->write(parameters_);
   write_frontend_parameters(parameters_, *frontend_);

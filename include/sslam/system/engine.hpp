@@ -40,8 +40,8 @@ class Engine {
 
   virtual void seed(std::uint64_t seed) = 0;
   virtual void create_points(bool on) = 0;                // false: no points but those that start the map
-  virtual void collect(ParameterTable& table) const = 0;  // the pipeline's parameters
-  virtual void write(const ParameterTable& table) = 0;    // those that were set
+  virtual void collect(ParameterTable& table) const = 0;  // adds the pipeline's parameters
+  virtual void write(const ParameterTable& table) = 0;    // takes the values that were set
 };
 
 }  // namespace sslam

@@ -21,15 +21,15 @@ struct NormalChoice {
     return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
   }
 
-  // Of the chosen source, whose name comes before theirs: "depth.max_depth".
+  [[nodiscard]] bool from_depth() const noexcept { return std::holds_alternative<DepthNormals>(source); }
+
+  // Of the chosen source, which comes before their names: "depth.max_depth".
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     if (auto* depth = std::get_if<DepthNormals>(&self.source)) visit_stage("depth.", *depth, visit);
     if (auto* files = std::get_if<FileNormals>(&self.source)) visit_stage("files.", *files, visit);
     if (auto* network = std::get_if<OnnxNormals>(&self.source)) visit_stage("onnx.", *network, visit);
   }
-
-  [[nodiscard]] bool from_depth() const noexcept { return std::holds_alternative<DepthNormals>(source); }
 
   // The normals of the last frame, to look at; empty where there is no source of them.
   [[nodiscard]] cv::Mat small_picture() const {
@@ -47,7 +47,7 @@ struct NormalChoice {
 };
 static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);
 
-// Those of every source, with their defaults.
+// The parameters of every source, with their defaults.
 inline void collect_normal_parameters(ParameterTable& table) {
   const DepthNormalsOptions depth;
   const FileNormalsOptions files;

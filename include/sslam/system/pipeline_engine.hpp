@@ -17,9 +17,7 @@ class PipelineEngine final : public Engine {
   TrackResult<double> track(Frame<double>& frame) override { return pipeline_.track(frame); }
   bool finish() override { return pipeline_.finish(); }
   void resume(Map<double> map) override { pipeline_.resume(std::move(map)); }
-  void localise_only(bool on) override {
-    if constexpr (requires { pipeline_.localise_only; }) pipeline_.localise_only = on;
-  }
+  void localise_only(bool on) override { pipeline_.localise_only = on; }
 
   [[nodiscard]] const Map<double>& map() const override { return pipeline_.map(); }
   [[nodiscard]] const TrajectoryLog<double>& trajectory() const override { return pipeline_.trajectory(); }

@@ -88,8 +88,7 @@ class BasicSystem {
   // Whether depth images are looked at.
   [[nodiscard]] bool reads_depth() const noexcept { return reads_depth_; }
   [[nodiscard]] const Preset& preset() const noexcept { return preset_; }
-  // All of them, with their values: the pipeline, the front end and every source of normals.
-  [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_.entries(); }
+  [[nodiscard]] const ParameterTable& parameters() const noexcept { return parameters_; }
   [[nodiscard]] int world() const { return engine_->world(); }
   [[nodiscard]] MapsApart apart() const { return engine_->apart(); }
   [[nodiscard]] int keyframes_not_made() const { return engine_->keyframes_not_made(); }
@@ -97,6 +96,7 @@ class BasicSystem {
 
  private:
   void check(const Settings& settings) const;
+  void set_parameters();
   void tell(const FrameReport& report, const Extraction& extraction);
   void note_latest(const FrameReport& report);
 

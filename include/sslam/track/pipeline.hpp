@@ -21,6 +21,8 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   using Worlds::initialisation, Worlds::keyframes, Worlds::loops, Worlds::mapping, Worlds::upkeep;
   using Worlds::motion, Worlds::relocalisation, Worlds::timer;
 
+  bool localise_only = false;  // no keyframe is made, and no map begun, given up, left or joined
+
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
   TrackResult<S> track(Frame<S>& frame) {
     timer.begin();
@@ -31,7 +33,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     result.stamp = frames_.current().frame.stamp;
     if (!world_.map.empty())
       follow(result);
-    else if (!revisit(result))
+    else if (!revisit(result) && !localise_only)
       initialise(result);
     if (world_.map.empty() || trial.undecided(world_.map) || trial.lost())
       backfill.keep(frames_.current(), result.has_pose());
@@ -109,7 +111,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     TrackedFrame<S>& frame = frames_.current();
     Map<S>& map = world_.map;
     trial.weigh(frame);
-    if (trial.refutes(map)) return lose(result, Reason::kManhattanRejected);
+    if (!localise_only && trial.refutes(map)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = frame.cam_from_world;
@@ -119,7 +121,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
       result.state = State::kFallback;
       result.reason = Reason::kRelocalised;
     }
-    result.keyframe = world_.cursor.advance(map, frame, estimate, keyframes, [&](S depth) {
+    result.keyframe = !localise_only && world_.cursor.advance(map, frame, estimate, keyframes, [&](S depth) {
       return upkeep.insert(map, frame, world_.cursor.reference(), depth, mapping, loops);
     });
     motion.update(frame.cam_from_world, result.stamp);
@@ -183,6 +185,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     frames_.lose();
     rotation.lose();
     trial.add_lost(frames_.current().frame);
+    if (localise_only) return;
     const bool left = trial.leaves() && atlas.options.most > 0;
     const bool refuted = trial.refutes(world_.map);
     if (refuted || left) Worlds::give_up_world(!refuted);

@@ -20,7 +20,8 @@ FRAMES = 60
 
 
 def call(program, *arguments, code=0):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=120)  # no server is left behind
+    # A command that should have ended and serves instead ends with this test, not after it.
+    done = subprocess.run(["setpriv", "--pdeathsig", "KILL", program, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode == code, (arguments, done)
     return done
 

@@ -33,20 +33,7 @@ class BundleSolver {
   BundleOptions<S> options;
 
   // On failure the graph is left as it was.
-  BundleSummary solve(BundleGraph<S>& graph) {
-    BundleSummary summary;
-    state_.load(graph);
-    if (!state_.finite()) return fail(summary, Status::kNotFinite);
-    if (choose_edges(graph) == 0) return summary;
-    S cost = linearise(graph);
-    summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
-    if (!std::isfinite(cost)) return fail(summary, Status::kNotFinite);
-    Descent descent{*this, graph};
-    summary.status = descend<S>(descent, options, cost, summary.iterations);
-    summary.final_cost = static_cast<double>(cost) / 2;
-    if (improved(summary)) state_.store(graph);
-    return summary;
-  }
+  BundleSummary solve(BundleGraph<S>& graph);
 
  private:
   struct Descent {
@@ -123,5 +110,21 @@ class BundleSolver {
   BundleEquations<S> equations_;
   ActiveEdges active_;
 };
+
+template <Scalar S>
+BundleSummary BundleSolver<S>::solve(BundleGraph<S>& graph) {
+  BundleSummary summary;
+  state_.load(graph);
+  if (!state_.finite()) return fail(summary, Status::kNotFinite);
+  if (choose_edges(graph) == 0) return summary;
+  S cost = linearise(graph);
+  summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
+  if (!std::isfinite(cost)) return fail(summary, Status::kNotFinite);
+  Descent descent{*this, graph};
+  summary.status = descend<S>(descent, options, cost, summary.iterations);
+  summary.final_cost = static_cast<double>(cost) / 2;
+  if (improved(summary)) state_.store(graph);
+  return summary;
+}
 
 }  // namespace sslam

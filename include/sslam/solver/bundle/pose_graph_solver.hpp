@@ -42,24 +42,7 @@ class PoseGraphSolver {
 
   // On failure the graph is left as it was. A node without an edge stays where it is; without a held node all
   // of them float, and the damping keeps them near where they were.
-  BundleSummary solve(PoseGraph<S>& graph) {
-    BundleSummary summary;
-    if (graph.edges.empty()) return summary;
-    load(graph);
-    Descent descent{*this, graph};
-    S cost = linearise(graph);
-    summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
-    if (!std::isfinite(cost)) {
-      summary.status = Status::kNotFinite;
-      return summary;
-    }
-    factor_.analyzePattern(system_);
-    summary.status = descend<S>(descent, options, cost, summary.iterations);
-    summary.final_cost = static_cast<double>(cost) / 2;
-    if (improved(summary))
-      for (std::size_t n = 0; n < graph.nodes.size(); ++n) graph.nodes[n].cam_from_world = state_[n];
-    return summary;
-  }
+  BundleSummary solve(PoseGraph<S>& graph);
 
  private:
   using Block = Mat<S, 7, 7>;
@@ -182,5 +165,25 @@ class PoseGraphSolver {
   VecX right_, steps_;
   Eigen::SimplicialLLT<Sparse> factor_;
 };
+
+template <Scalar S>
+BundleSummary PoseGraphSolver<S>::solve(PoseGraph<S>& graph) {
+  BundleSummary summary;
+  if (graph.edges.empty()) return summary;
+  load(graph);
+  Descent descent{*this, graph};
+  S cost = linearise(graph);
+  summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
+  if (!std::isfinite(cost)) {
+    summary.status = Status::kNotFinite;
+    return summary;
+  }
+  factor_.analyzePattern(system_);
+  summary.status = descend<S>(descent, options, cost, summary.iterations);
+  summary.final_cost = static_cast<double>(cost) / 2;
+  if (improved(summary))
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) graph.nodes[n].cam_from_world = state_[n];
+  return summary;
+}
 
 }  // namespace sslam

@@ -5,6 +5,7 @@
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/track/localise/translation.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -35,40 +36,17 @@ class FeatureFallback {
   // In: the frame's pose is the prediction. Out: the solved pose and its inlying matches; unchanged pose on
   // failure.
   [[nodiscard]] PoseEstimate<S> track(const Map<S>& map, const RecentLandmarks<S>& recent,
-                                      const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
-    PoseEstimate<S> estimate;
-    for (const S width : {S(1), options.widening}) {
-      match_recent(map, recent, width, options.match, frame);
-      estimate = solve(map, prior, frame);
-      if (estimate.ok()) return estimate;
-    }
-    return estimate;
-  }
+                                      const RotationPrior<S>* prior, TrackedFrame<S>& frame);
 
   // Tracks against one keyframe: its points by descriptors, then its lines by reprojection.
   [[nodiscard]] PoseEstimate<S> track_keyframe(const Map<S>& map, KeyframeId id,
-                                               const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
-    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    match_keyframe_points(keyframe, frame);
-    const SE3<S> before = frame.cam_from_world;
-    PoseEstimate<S> estimate = solve(map, prior, frame);
-    if (!estimate.ok()) return estimate;
-    recent_.points.clear();
-    recent_.lines.clear();
-    for (const LandmarkId landmark : keyframe.line_landmarks)
-      if (landmark != kNone) recent_.lines.push_back(landmark);
-    match_lines_by_projection<S>(map, recent_.lines, frame, options.match.line_radius, options.match.lines,
-                                 [](LandmarkId, bool) {});
-    estimate = solve(map, prior, frame);
-    if (!estimate.ok()) frame.cam_from_world = before;
-    return estimate;
-  }
+                                               const RotationPrior<S>* prior, TrackedFrame<S>& frame);
 
  private:
   void match_keyframe_points(const Keyframe<S>& keyframe, TrackedFrame<S>& frame) {
     frame.forget_matches();
     // Every feature of the frame is a candidate: after a loss nothing is known about where to look.
-    match_points_mutually<S>(
+    matcher_.match(
         keyframe.frame.points, frame.frame.points, options.descriptor_match,
         [&](std::int32_t i, auto visit) {
           if (keyframe.point_landmarks[Map<S>::index(i)] == kNone) return;
@@ -97,8 +75,40 @@ class FeatureFallback {
 
   Correspondences<S> matches_;
   RecentLandmarks<S> recent_;
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
+
+template <Scalar S>
+PoseEstimate<S> FeatureFallback<S>::track(const Map<S>& map, const RecentLandmarks<S>& recent,
+                                          const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+  PoseEstimate<S> estimate;
+  for (const S width : {S(1), options.widening}) {
+    match_recent(map, recent, width, options.match, frame);
+    estimate = solve(map, prior, frame);
+    if (estimate.ok()) return estimate;
+  }
+  return estimate;
+}
+
+template <Scalar S>
+PoseEstimate<S> FeatureFallback<S>::track_keyframe(const Map<S>& map, KeyframeId id,
+                                                   const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
+  const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+  match_keyframe_points(keyframe, frame);
+  const SE3<S> before = frame.cam_from_world;
+  PoseEstimate<S> estimate = solve(map, prior, frame);
+  if (!estimate.ok()) return estimate;
+  recent_.points.clear();
+  recent_.lines.clear();
+  for (const LandmarkId landmark : keyframe.line_landmarks)
+    if (landmark != kNone) recent_.lines.push_back(landmark);
+  match_lines_by_projection<S>(map, recent_.lines, frame, options.match.line_radius, options.match.lines,
+                               [](LandmarkId, bool) {});
+  estimate = solve(map, prior, frame);
+  if (!estimate.ok()) frame.cam_from_world = before;
+  return estimate;
+}
 static_assert(FallbackStage<FeatureFallback<double>, double>);
 
 // Never answers: a frame without Manhattan evidence is lost.

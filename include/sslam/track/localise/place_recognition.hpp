@@ -42,18 +42,7 @@ class PlaceRecognition {
   // Appends up to `options.most` keyframes to `ranked`, those that share most landmarks with the frame first.
   // Keyframes in `apart_from` are not asked for, nor is what they see.
   void rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked,
-            std::span<const KeyframeId> apart_from = {}) {
-    votes_.assign(map.keyframes.size(), 0);
-    vote(map, map.points, &Keyframe<S>::point_landmarks, frame.points, apart_from);
-    vote(map, map.lines, &Keyframe<S>::line_landmarks, frame.lines, apart_from);
-    order_.clear();
-    for (std::size_t k = 0; k < votes_.size(); ++k)
-      if (votes_[k] >= options.min_votes) order_.push_back(static_cast<KeyframeId>(k));
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](KeyframeId a, KeyframeId b) { return votes_[map.index(a)] > votes_[map.index(b)]; });
-    const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max(options.most, 0)));
-    ranked.insert(ranked.end(), order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count));
-  }
+            std::span<const KeyframeId> apart_from = {});
 
  private:
   template <class Landmarks, class Seen, class Features>
@@ -86,5 +75,22 @@ class PlaceRecognition {
   std::vector<int> votes_;              // of each keyframe
   std::vector<KeyframeId> order_;
 };
+
+template <Scalar S>
+void PlaceRecognition<S>::rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked,
+                               std::span<const KeyframeId> apart_from) {
+  votes_.assign(map.keyframes.size(), 0);
+  vote(map, map.points, &Keyframe<S>::point_landmarks, frame.points, apart_from);
+  vote(map, map.lines, &Keyframe<S>::line_landmarks, frame.lines, apart_from);
+  order_.clear();
+  for (std::size_t k = 0; k < votes_.size(); ++k)
+    if (votes_[k] >= options.min_votes) order_.push_back(static_cast<KeyframeId>(k));
+  std::sort(order_.begin(), order_.end(), [&](KeyframeId a, KeyframeId b) {
+    const int va = votes_[map.index(a)], vb = votes_[map.index(b)];
+    return va != vb ? va > vb : a < b;
+  });
+  const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max(options.most, 0)));
+  ranked.insert(ranked.end(), order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count));
+}
 
 }  // namespace sslam

@@ -22,9 +22,9 @@ struct RefinementOptions {
     visit_within("", self.match, visit);
     visit_within("", self.acceptance, visit);
     visit_within("solver.", self.solver, visit);
-    visit("min_inliers_turned", self.min_inliers_turned, Unit::kCount, 3, 1e6,
+    visit("min_inliers_turned", self.min_inliers_turned, Unit::kCount, 3, 1e+06,
           "min_inliers where the Manhattan frame gives the rotation");
-    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e6, "of the local map");
+    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e+06, "of the local map");
   }
 };
 static_assert(Described<RefinementOptions<double>>);
@@ -36,35 +36,11 @@ class LocalMapRefinement {
 
   // In: a tracked pose with its matches. Out: the refined pose with the local map's inlying matches; the
   // landmarks' visible and found counts are brought up to date. Unchanged pose on failure.
-  [[nodiscard]] PoseEstimate<S> refine(Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame) {
-    const PoseEstimate<S> estimate = refine_uncounted(map, prior, frame);
-    for (const LandmarkId id : visible_points_) ++map.points[map.index(id)].visible;
-    for (const LandmarkId id : visible_lines_) ++map.lines[map.index(id)].visible;
-    if (estimate.ok()) count_found(map, frame);
-    return estimate;
-  }
+  [[nodiscard]] PoseEstimate<S> refine(Map<S>& map, const RotationPrior<S>* prior, TrackedFrame<S>& frame);
 
   // The same for a place that is only supposed: the map stays as it is.
   [[nodiscard]] PoseEstimate<S> refine_uncounted(const Map<S>& map, const RotationPrior<S>* prior,
-                                                 TrackedFrame<S>& frame) {
-    local_.gather(map, frame.point_landmarks, frame.line_landmarks, options.max_keyframes);
-    drop_matched(local_.points, frame.point_landmarks, visible_points_);
-    drop_matched(local_.lines, frame.line_landmarks, visible_lines_);
-    match_points_by_projection<S>(map, local_.points, frame, options.match.point_radius, options.match.points,
-                                  [&](LandmarkId id, bool) { visible_points_.push_back(id); });
-    match_lines_by_projection<S>(map, local_.lines, frame, options.match.line_radius, options.match.lines,
-                                 [&](LandmarkId id, bool) { visible_lines_.push_back(id); });
-    matches_.gather(map, frame);
-    SE3<S> pose = frame.cam_from_world;
-    const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
-                                        options.solver, matches_.point_inliers, matches_.line_inliers, prior);
-    if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
-    if (!estimate.ok()) return estimate;
-    matches_.drop_outliers(frame);
-    frame.cam_from_world = pose;
-    return estimate;
-  }
+                                                 TrackedFrame<S>& frame);
 
   // What a pose must show, with a rotation from the Manhattan frame or without one.
   [[nodiscard]] PoseAcceptance<S> accepts(const RotationPrior<S>* prior) const noexcept {
@@ -96,6 +72,38 @@ class LocalMapRefinement {
   Correspondences<S> matches_;
   std::vector<LandmarkId> visible_points_, visible_lines_;  // that the frame should show
 };
+
+template <Scalar S>
+PoseEstimate<S> LocalMapRefinement<S>::refine(Map<S>& map, const RotationPrior<S>* prior,
+                                              TrackedFrame<S>& frame) {
+  const PoseEstimate<S> estimate = refine_uncounted(map, prior, frame);
+  for (const LandmarkId id : visible_points_) ++map.points[map.index(id)].visible;
+  for (const LandmarkId id : visible_lines_) ++map.lines[map.index(id)].visible;
+  if (estimate.ok()) count_found(map, frame);
+  return estimate;
+}
+
+template <Scalar S>
+PoseEstimate<S> LocalMapRefinement<S>::refine_uncounted(const Map<S>& map, const RotationPrior<S>* prior,
+                                                        TrackedFrame<S>& frame) {
+  local_.gather(map, frame.point_landmarks, frame.line_landmarks, options.max_keyframes);
+  drop_matched(local_.points, frame.point_landmarks, visible_points_);
+  drop_matched(local_.lines, frame.line_landmarks, visible_lines_);
+  match_points_by_projection<S>(map, local_.points, frame, options.match.point_radius, options.match.points,
+                                [&](LandmarkId id, bool) { visible_points_.push_back(id); });
+  match_lines_by_projection<S>(map, local_.lines, frame, options.match.line_radius, options.match.lines,
+                               [&](LandmarkId id, bool) { visible_lines_.push_back(id); });
+  matches_.gather(map, frame);
+  SE3<S> pose = frame.cam_from_world;
+  const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
+                                      options.solver, matches_.point_inliers, matches_.line_inliers, prior);
+  if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
+  const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
+  if (!estimate.ok()) return estimate;
+  matches_.drop_outliers(frame);
+  frame.cam_from_world = pose;
+  return estimate;
+}
 static_assert(RefinementStage<LocalMapRefinement<double>, double>);
 
 // Takes the tracked pose as it is.

@@ -42,18 +42,7 @@ class ManhattanRotation {
 
   // The rotation near the prediction. Which Manhattan frames there are, the caller says and keeps.
   RotationAnswer<S> rotate(const Frame<S>& frame, const SO3<S>& predicted_cam_from_world,
-                           const KnownAxes<S>& known) {
-    gather_votes(frame);
-    predicted_ = predicted_cam_from_world;
-    line_axes_.assign(frame.lines.size(), kNone);
-    discovered_.reset();
-    std::optional<std::size_t> index = track(known.world_from_manhattan);
-    if (!index && !usable(estimate_.status) && !degenerate()) index = look_around(known);
-    if (index) return answer(*index, known.world_from_manhattan);
-    RotationAnswer<S> nothing;
-    if (usable(estimate_.status)) nothing.axes_seen = estimate_.axes_seen;
-    return nothing;
-  }
+                           const KnownAxes<S>& known);
 
   // The frame has no pose after all: what was predicted of its rotation says nothing of an unknown Manhattan
   // frame.
@@ -146,6 +135,21 @@ class ManhattanRotation {
 
   std::size_t active_ = 0;  // the Manhattan frame that was seen last
 };
+
+template <Scalar S>
+RotationAnswer<S> ManhattanRotation<S>::rotate(const Frame<S>& frame, const SO3<S>& predicted_cam_from_world,
+                                               const KnownAxes<S>& known) {
+  gather_votes(frame);
+  predicted_ = predicted_cam_from_world;
+  line_axes_.assign(frame.lines.size(), kNone);
+  discovered_.reset();
+  std::optional<std::size_t> index = track(known.world_from_manhattan);
+  if (!index && !usable(estimate_.status) && !degenerate()) index = look_around(known);
+  if (index) return answer(*index, known.world_from_manhattan);
+  RotationAnswer<S> nothing;
+  if (usable(estimate_.status)) nothing.axes_seen = estimate_.axes_seen;
+  return nothing;
+}
 static_assert(RotationStage<ManhattanRotation<double>, double>);
 
 // No Manhattan world: every frame takes the fallback.

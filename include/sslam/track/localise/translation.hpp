@@ -65,24 +65,28 @@ class DecoupledTranslation {
   // In: the frame's pose has its Manhattan rotation and a predicted translation. Out: the solved translation
   // and the inlying matches, or, on failure, an unchanged pose.
   [[nodiscard]] PoseEstimate<S> translate(const Map<S>& map, const RecentLandmarks<S>& recent,
-                                          TrackedFrame<S>& frame) {
-    match_recent(map, recent, S(1), options.match, frame);
-    matches_.gather(map, frame);
-    if (static_cast<int>(matches_.size()) < options.acceptance.min_inliers) return {};
-    SE3<S> pose = frame.cam_from_world;
-    const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
-                                               options.solver, matches_.point_inliers, matches_.line_inliers);
-    if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, options.acceptance);
-    if (!estimate.ok()) return estimate;
-    matches_.drop_outliers(frame);
-    frame.cam_from_world = pose;
-    return estimate;
-  }
+                                          TrackedFrame<S>& frame);
 
  private:
   Correspondences<S> matches_;
 };
+
+template <Scalar S>
+PoseEstimate<S> DecoupledTranslation<S>::translate(const Map<S>& map, const RecentLandmarks<S>& recent,
+                                                   TrackedFrame<S>& frame) {
+  match_recent(map, recent, S(1), options.match, frame);
+  matches_.gather(map, frame);
+  if (static_cast<int>(matches_.size()) < options.acceptance.min_inliers) return {};
+  SE3<S> pose = frame.cam_from_world;
+  const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
+                                             options.solver, matches_.point_inliers, matches_.line_inliers);
+  if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
+  const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, options.acceptance);
+  if (!estimate.ok()) return estimate;
+  matches_.drop_outliers(frame);
+  frame.cam_from_world = pose;
+  return estimate;
+}
 static_assert(TranslationStage<DecoupledTranslation<double>, double>);
 
 // Never answers: every frame takes the fallback, with its full six degrees of freedom.

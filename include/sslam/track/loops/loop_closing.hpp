@@ -62,39 +62,12 @@ class LoopClosing {
   }
 
   // The keyframe has just been taken into the map.
-  LoopAnswer<S> close(Map<S>& map, KeyframeId id) {
-    const std::optional<Loop<S>> loop = detection.find(map, id, map);
-    if (!loop) return {};
-    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < options.in_place;
-    // A place that the map expects nearby needs no second sighting.
-    const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
-    if (drifted && share_in_place(map, keyframe, *loop, nearby.reach) < nearby.min_share &&
-        !detection.confirmed(keyframe, map, *loop, met_))
-      return {};
-    forget();
-    if (drifted && !bend(map, id, *loop)) return {};
-    join(map, id, *loop);
-    if (!drifted) {
-      adjustment.optimise(map, id);
-      return {true, {}};
-    }
-    adjustment.optimise_all(map);
-    return {true, new_from_old_};
-  }
+  LoopAnswer<S> close(Map<S>& map, KeyframeId id);
 
   [[nodiscard]] LoopDetection<S> finder() const { return detection; }
 
   // `other` becomes part of the map, as its keyframe `id`, which met the map there, says.
-  MapJoint<S> merge(Map<S>& map, Map<S> other, KeyframeId id, const Loop<S>& loop) {
-    MapJoint<S> joint;
-    joint.moved = loop.there_from_here(other.keyframes[map.index(id)].cam_from_world);
-    joint.shift = append(map, std::move(other), joint.moved, detection.options.max_turn);
-    join(map, id + joint.shift.keyframes, loop);
-    adjustment.optimise_all(map);
-    forget();
-    return joint;
-  }
+  MapJoint<S> merge(Map<S>& map, Map<S> other, KeyframeId id, const Loop<S>& loop);
 
   // The map is another one.
   void forget() noexcept { met_.reset(); }
@@ -167,6 +140,39 @@ class LoopClosing {
   std::vector<Sim3<S>> new_from_old_;
   std::optional<PlaceMatch<S>> met_;  // a place that may be one which was left long ago
 };
+
+template <Scalar S>
+LoopAnswer<S> LoopClosing<S>::close(Map<S>& map, KeyframeId id) {
+  const std::optional<Loop<S>> loop = detection.find(map, id, map);
+  if (!loop) return {};
+  const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+  const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < options.in_place;
+  // A place that the map expects nearby needs no second sighting.
+  const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
+  if (drifted && share_in_place(map, keyframe, *loop, nearby.reach) < nearby.min_share &&
+      !detection.confirmed(keyframe, map, *loop, met_))
+    return {};
+  forget();
+  if (drifted && !bend(map, id, *loop)) return {};
+  join(map, id, *loop);
+  if (!drifted) {
+    adjustment.optimise(map, id);
+    return {true, {}};
+  }
+  adjustment.optimise_all(map);
+  return {true, new_from_old_};
+}
+
+template <Scalar S>
+MapJoint<S> LoopClosing<S>::merge(Map<S>& map, Map<S> other, KeyframeId id, const Loop<S>& loop) {
+  MapJoint<S> joint;
+  joint.moved = loop.there_from_here(other.keyframes[map.index(id)].cam_from_world);
+  joint.shift = append(map, std::move(other), joint.moved, detection.options.max_turn);
+  join(map, id + joint.shift.keyframes, loop);
+  adjustment.optimise_all(map);
+  forget();
+  return joint;
+}
 
 static_assert(LoopStage<LoopClosing<double>, double>);
 

@@ -65,22 +65,7 @@ class LoopDetection {
   }
 
   // The place of a keyframe of `here` in `there`, which may be the same map.
-  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>& here, KeyframeId id, const Map<S>& there) {
-    const Keyframe<S>& keyframe = here.keyframes[here.index(id)];
-    connected_.clear();
-    if (&here == &there) {
-      connected_.push_back(id);
-      for (const Neighbour& n : keyframe.neighbours) connected_.push_back(n.keyframe);
-    }
-    candidates_.clear();
-    if (places.options.most > 0) places.rank(there, keyframe.frame, candidates_, connected_);
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      // Next to a keyframe that was tried in vain is the same place.
-      if (i > 0 && covisible(there.keyframes[there.index(candidates_[0])], candidates_[i])) continue;
-      if (auto loop = verify(here, keyframe, there, candidates_[i])) return loop;
-    }
-    return std::nullopt;
-  }
+  [[nodiscard]] std::optional<Loop<S>> find(const Map<S>& here, KeyframeId id, const Map<S>& there);
 
   // Whether that place bears out the one met before, `first`, which becomes the newer one where they
   // contradict each other.
@@ -167,6 +152,24 @@ class LoopDetection {
   TrackedFrame<S> view_;  // the keyframe, as a frame at the place
   std::vector<S> ratios_;
 };
+
+template <Scalar S>
+std::optional<Loop<S>> LoopDetection<S>::find(const Map<S>& here, KeyframeId id, const Map<S>& there) {
+  const Keyframe<S>& keyframe = here.keyframes[here.index(id)];
+  connected_.clear();
+  if (&here == &there) {
+    connected_.push_back(id);
+    for (const Neighbour& n : keyframe.neighbours) connected_.push_back(n.keyframe);
+  }
+  candidates_.clear();
+  if (places.options.most > 0) places.rank(there, keyframe.frame, candidates_, connected_);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    // Next to a keyframe that was tried in vain is the same place.
+    if (i > 0 && covisible(there.keyframes[there.index(candidates_[0])], candidates_[i])) continue;
+    if (auto loop = verify(here, keyframe, there, candidates_[i])) return loop;
+  }
+  return std::nullopt;
+}
 static_assert(PlaceFinder<LoopDetection<double>, double>);
 
 }  // namespace sslam

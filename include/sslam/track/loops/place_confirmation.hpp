@@ -44,19 +44,7 @@ class PlaceConfirmation {
   // Whether a place match and an earlier one bear each other out. `first` becomes the newer one where they
   // contradict each other.
   [[nodiscard]] bool confirmed(const Keyframe<S>& keyframe, const Map<S>& there, const Loop<S>& loop,
-                               std::optional<PlaceMatch<S>>& first) const {
-    if (first) {
-      const Tally tally = compare(keyframe, there, loop, *first);
-      if (static_cast<S>(tally.near) >= options.min_share * static_cast<S>(tally.fresh))
-        return tally.fresh >= options.min_new;
-    }
-    first = PlaceMatch<S>{loop.there_from_here(keyframe.cam_from_world), {}};
-    for (const LandmarkId id : loop.point_landmarks)
-      if (id != kNone) first->places.push_back(place(there.points[there.index(id)]));
-    for (const LandmarkId id : loop.line_landmarks)
-      if (id != kNone) first->places.push_back(place(there.lines[there.index(id)]));
-    return false;
-  }
+                               std::optional<PlaceMatch<S>>& first) const;
 
  private:
   struct Tally {
@@ -108,5 +96,21 @@ class PlaceConfirmation {
     return box;
   }
 };
+
+template <Scalar S>
+bool PlaceConfirmation<S>::confirmed(const Keyframe<S>& keyframe, const Map<S>& there, const Loop<S>& loop,
+                                     std::optional<PlaceMatch<S>>& first) const {
+  if (first) {
+    const Tally tally = compare(keyframe, there, loop, *first);
+    if (static_cast<S>(tally.near) >= options.min_share * static_cast<S>(tally.fresh))
+      return tally.fresh >= options.min_new;
+  }
+  first = PlaceMatch<S>{loop.there_from_here(keyframe.cam_from_world), {}};
+  for (const LandmarkId id : loop.point_landmarks)
+    if (id != kNone) first->places.push_back(place(there.points[there.index(id)]));
+  for (const LandmarkId id : loop.line_landmarks)
+    if (id != kNone) first->places.push_back(place(there.lines[there.index(id)]));
+  return false;
+}
 
 }  // namespace sslam

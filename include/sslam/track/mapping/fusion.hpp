@@ -35,30 +35,12 @@ class LandmarkFusion {
   FusionOptions<S> options;
 
   // Both ways between the keyframe and its neighbours.
-  void fuse(Map<S>& map, KeyframeId id) {
-    local_.gather_around(map, id, options.max_neighbours + 1);
-    const auto around = local_.keyframes;
-    const auto neighbour_points = local_.points;
-    const auto neighbour_lines = local_.lines;
-    take_in(map, id, neighbour_points, neighbour_lines);
-    for (std::size_t i = 1; i < around.size(); ++i)
-      take_in(map, around[i], map.keyframes[map.index(id)].point_landmarks,
-              map.keyframes[map.index(id)].line_landmarks);
-  }
+  void fuse(Map<S>& map, KeyframeId id);
 
   // The keyframe observes those of the landmarks that it shows; what it saw in their stead becomes one with
   // them.
   void take_in(Map<S>& map, KeyframeId target, std::vector<LandmarkId> point_ids,
-               std::vector<LandmarkId> line_ids) {
-    const Keyframe<S>& kf = map.keyframes[map.index(target)];
-    grid_.build(kf.frame.points, kf.frame.width, kf.frame.height);
-    for (const LandmarkId id : point_ids)
-      if (id != kNone && map.points[map.index(id)].alive && !sees(map.points[map.index(id)], target))
-        fuse_point(map, target, id);
-    for (const LandmarkId id : line_ids)
-      if (id != kNone && map.lines[map.index(id)].alive && !sees(map.lines[map.index(id)], target))
-        fuse_line(map, target, id);
-  }
+               std::vector<LandmarkId> line_ids);
 
   [[nodiscard]] static bool sees(const LandmarkCommon& landmark, KeyframeId keyframe) {
     return std::any_of(landmark.observations.begin(), landmark.observations.end(),
@@ -115,5 +97,30 @@ class LandmarkFusion {
   LocalMap<S> local_;
   FeatureGrid<S> grid_;
 };
+
+template <Scalar S>
+void LandmarkFusion<S>::fuse(Map<S>& map, KeyframeId id) {
+  local_.gather_around(map, id, options.max_neighbours + 1);
+  const auto around = local_.keyframes;
+  const auto neighbour_points = local_.points;
+  const auto neighbour_lines = local_.lines;
+  take_in(map, id, neighbour_points, neighbour_lines);
+  for (std::size_t i = 1; i < around.size(); ++i)
+    take_in(map, around[i], map.keyframes[map.index(id)].point_landmarks,
+            map.keyframes[map.index(id)].line_landmarks);
+}
+
+template <Scalar S>
+void LandmarkFusion<S>::take_in(Map<S>& map, KeyframeId target, std::vector<LandmarkId> point_ids,
+                                std::vector<LandmarkId> line_ids) {
+  const Keyframe<S>& kf = map.keyframes[map.index(target)];
+  grid_.build(kf.frame.points, kf.frame.width, kf.frame.height);
+  for (const LandmarkId id : point_ids)
+    if (id != kNone && map.points[map.index(id)].alive && !sees(map.points[map.index(id)], target))
+      fuse_point(map, target, id);
+  for (const LandmarkId id : line_ids)
+    if (id != kNone && map.lines[map.index(id)].alive && !sees(map.lines[map.index(id)], target))
+      fuse_line(map, target, id);
+}
 
 }  // namespace sslam

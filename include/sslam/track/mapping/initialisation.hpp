@@ -16,7 +16,7 @@
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/translation.hpp"
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/matching/match_points.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -63,18 +63,7 @@ class DecoupledInitialisation {
 
   // Tries to make a first map from the reference frame and this one. On success (kFine) the map holds both as
   // keyframes with their points, and the frame has its pose and matches.
-  [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map) {
-    if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
-      return Reason::kTooFewFeatures;
-    if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
-    follow(frame);
-    if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
-    SO3<S> R_10;
-    Vec3<S> t_10;
-    const Reason reason = relative_pose(frame, R_10, t_10);
-    if (reason != Reason::kFine) return reason;
-    return build(frame, R_10, t_10, map);
-  }
+  [[nodiscard]] Reason start(TrackedFrame<S>& frame, Map<S>& map);
 
   void reset() { has_reference_ = false; }
 
@@ -92,7 +81,7 @@ class DecoupledInitialisation {
   void follow(const TrackedFrame<S>& frame) {
     const SO3<S> turn = frame.cam_from_world.rotation * last_rotation_.inverse();
     const Pinhole<S>& pinhole = frame.frame.pinhole;
-    match_points_mutually<S>(
+    matcher_.match(
         reference_.frame.points, frame.frame.points, options.match,
         [&](std::int32_t i, auto visit) {
           const Vec3<S> ray = turn * pinhole.unproject(last_pixels_[Map<S>::index(i)]);
@@ -224,12 +213,27 @@ class DecoupledInitialisation {
   std::vector<Vec2<S>> last_pixels_;  // where each feature of the reference was last seen
   SO3<S> last_rotation_;
   std::optional<RotationObservation<S>> prior_;  // frame from reference
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
   std::vector<BearingMatch<S>> bearings_;
   std::vector<std::uint8_t> inliers_;
   std::vector<Seed> seeds_;
   std::vector<S> depths_;
 };
+
+template <Scalar S>
+Reason DecoupledInitialisation<S>::start(TrackedFrame<S>& frame, Map<S>& map) {
+  if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
+    return Reason::kTooFewFeatures;
+  if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
+  follow(frame);
+  if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
+  SO3<S> R_10;
+  Vec3<S> t_10;
+  const Reason reason = relative_pose(frame, R_10, t_10);
+  if (reason != Reason::kFine) return reason;
+  return build(frame, R_10, t_10, map);
+}
 static_assert(InitialisationStage<DecoupledInitialisation<double>, double>);
 
 }  // namespace sslam

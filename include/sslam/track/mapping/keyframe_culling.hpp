@@ -35,14 +35,7 @@ class KeyframeCulling {
 
   // Removes redundant keyframes among the neighbours of `now`. The first map's two are never removed: they
   // hold place and scale.
-  void cull(Map<S>& map, KeyframeId now) {
-    candidates_ = map.keyframes[map.index(now)].neighbours;
-    for (const Neighbour& candidate : candidates_) {
-      const KeyframeId id = candidate.keyframe;
-      if (id < 2 || id + options.spared > now || !is_redundant(map, map.keyframes[map.index(id)])) continue;
-      map.erase_keyframe(id, map.keyframes[map.index(id)].neighbours.front().keyframe);
-    }
-  }
+  void cull(Map<S>& map, KeyframeId now);
 
  private:
   [[nodiscard]] bool is_redundant(const Map<S>& map, const Keyframe<S>& keyframe) const {
@@ -68,5 +61,15 @@ class KeyframeCulling {
 
   std::vector<Neighbour> candidates_;
 };
+
+template <Scalar S>
+void KeyframeCulling<S>::cull(Map<S>& map, KeyframeId now) {
+  candidates_ = map.keyframes[map.index(now)].neighbours;
+  for (const Neighbour& candidate : candidates_) {
+    const KeyframeId id = candidate.keyframe;
+    if (id < 2 || id + options.spared > now || !is_redundant(map, map.keyframes[map.index(id)])) continue;
+    map.erase_keyframe(id, map.keyframes[map.index(id)].neighbours.front().keyframe);
+  }
+}
 
 }  // namespace sslam

@@ -33,13 +33,7 @@ class LandmarkCulling {
   LandmarkCullingOptions<S> options;
 
   // Tests the landmarks that are still young as of keyframe `now`; others have passed.
-  void cull(Map<S>& map, KeyframeId now) const {
-    for (KeyframeId k = std::max(0, now - options.probation); k <= now; ++k) {
-      const Keyframe<S>& keyframe = map.keyframes[map.index(k)];  // the creator of every young one is here
-      test(keyframe.point_landmarks, map.points, now, [&](LandmarkId id) { map.erase_point(id); });
-      test(keyframe.line_landmarks, map.lines, now, [&](LandmarkId id) { map.erase_line(id); });
-    }
-  }
+  void cull(Map<S>& map, KeyframeId now) const;
 
  private:
   // Erasing takes a landmark out of `seen`, in place.
@@ -59,5 +53,14 @@ class LandmarkCulling {
     }
   }
 };
+
+template <Scalar S>
+void LandmarkCulling<S>::cull(Map<S>& map, KeyframeId now) const {
+  for (KeyframeId k = std::max(0, now - options.probation); k <= now; ++k) {
+    const Keyframe<S>& keyframe = map.keyframes[map.index(k)];  // the creator of every young one is here
+    test(keyframe.point_landmarks, map.points, now, [&](LandmarkId id) { map.erase_point(id); });
+    test(keyframe.line_landmarks, map.lines, now, [&](LandmarkId id) { map.erase_line(id); });
+  }
+}
 
 }  // namespace sslam

@@ -48,29 +48,36 @@ class KeyframeMapping {
   }
 
   // The tracked frame joins the map; its pose and matches are updated with what mapping makes of them.
-  KeyframeId insert(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
-    const KeyframeId id = map.add_keyframe(frame.to_keyframe());
-    culling.cull(map, id);
-    creation.create(map, id, median_depth);
-    fusion.fuse(map, id);
-    planes.find(map, id, median_depth);
-    map.update_covisibility(id);
-    optimiser.optimise(map, id);
-    keyframe_culling.cull(map, id);
-    frame.read_back(map.keyframes[map.index(id)]);
-    return id;
-  }
+  KeyframeId insert(Map<S>& map, TrackedFrame<S>& frame, S median_depth);
 
   // Completes the map that initialisation has just made; the frame is its last keyframe.
-  void begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
-    const KeyframeId id = map.keyframes.back().id;
-    creation.create(map, id, median_depth);
-    planes.find(map, id, median_depth);
-    map.update_covisibility(id);
-    optimiser.optimise(map, id);
-    frame.read_back(map.keyframes[map.index(id)]);
-  }
+  void begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth);
 };
+
+template <Scalar S, MapOptimiser<S> Optimiser, PlaneStep<S> Planes>
+KeyframeId KeyframeMapping<S, Optimiser, Planes>::insert(Map<S>& map, TrackedFrame<S>& frame,
+                                                         S median_depth) {
+  const KeyframeId id = map.add_keyframe(frame.to_keyframe());
+  culling.cull(map, id);
+  creation.create(map, id, median_depth);
+  fusion.fuse(map, id);
+  planes.find(map, id, median_depth);
+  map.update_covisibility(id);
+  optimiser.optimise(map, id);
+  keyframe_culling.cull(map, id);
+  frame.read_back(map.keyframes[map.index(id)]);
+  return id;
+}
+
+template <Scalar S, MapOptimiser<S> Optimiser, PlaneStep<S> Planes>
+void KeyframeMapping<S, Optimiser, Planes>::begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth) {
+  const KeyframeId id = map.keyframes.back().id;
+  creation.create(map, id, median_depth);
+  planes.find(map, id, median_depth);
+  map.update_covisibility(id);
+  optimiser.optimise(map, id);
+  frame.read_back(map.keyframes[map.index(id)]);
+}
 static_assert(MappingStage<KeyframeMapping<double>, double>);
 
 }  // namespace sslam

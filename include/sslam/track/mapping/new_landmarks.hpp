@@ -10,6 +10,7 @@
 #include "sslam/solver/triangulation/triangulate_line.hpp"
 #include "sslam/solver/triangulation/triangulate_point.hpp"
 #include "sslam/track/matching/match_lines.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -59,19 +60,7 @@ class NewLandmarks {
   NewLandmarkOptions<S> options;
 
   // Returns how many landmarks were added.
-  int create(Map<S>& map, KeyframeId id, S median_depth) {
-    int added = 0;
-    const auto neighbours = map.keyframes[map.index(id)].neighbours;
-    for (std::size_t i = 0; i < neighbours.size() && i < options.max_neighbours; ++i) {
-      const Keyframe<S>& a = map.keyframes[map.index(id)];
-      const Keyframe<S>& b = map.keyframes[map.index(neighbours[i].keyframe)];
-      b_from_a_ = b.cam_from_world * a.cam_from_world.inverse();
-      if (b_from_a_.translation.norm() < options.min_baseline * median_depth) continue;
-      if (options.use_points) added += create_points(map, id, neighbours[i].keyframe, median_depth);
-      if (options.use_lines) added += create_lines(map, id, neighbours[i].keyframe, median_depth);
-    }
-    return added;
-  }
+  int create(Map<S>& map, KeyframeId id, S median_depth);
 
  private:
   int create_points(Map<S>& map, KeyframeId id_a, KeyframeId id_b, S median_depth) {
@@ -79,7 +68,7 @@ class NewLandmarks {
     const Keyframe<S>& b = map.keyframes[map.index(id_b)];
     grid_.build(b.frame.points, b.frame.width, b.frame.height);
     const Mat3<S> essential = hat(b_from_a_.translation) * b_from_a_.rotation.matrix();
-    match_points_mutually<S>(
+    matcher_.match(
         a.frame.points, b.frame.points, options.points,
         [&](std::int32_t i, auto visit) { visit_epipolar(a, b, essential, median_depth, i, visit); }, pairs_);
     int added = 0;
@@ -141,13 +130,18 @@ class NewLandmarks {
     const Keyframe<S>& a = map.keyframes[map.index(id_a)];
     const Keyframe<S>& b = map.keyframes[map.index(id_b)];
     const SO3<S> turn = b_from_a_.rotation;
-    match_lines_mutually<S>(
+    const auto may_match = [&](std::size_t i, std::size_t j) {
+      if (b.line_landmarks[j] != kNone) return false;
+      if (a.line_axes[i] != kNone && b.line_axes[j] != kNone && a.line_axes[i] != b.line_axes[j])
+        return false;
+      return similar_direction(a, a.frame.lines[i].segment, b, b.frame.lines[j].segment, turn);
+    };
+    matcher_.match(
         a.frame.lines, b.frame.lines, options.lines,
-        [&](std::size_t i, std::size_t j) {
-          if (a.line_landmarks[i] != kNone || b.line_landmarks[j] != kNone) return false;
-          if (a.line_axes[i] != kNone && b.line_axes[j] != kNone && a.line_axes[i] != b.line_axes[j])
-            return false;
-          return similar_direction(a, a.frame.lines[i].segment, b, b.frame.lines[j].segment, turn);
+        [&](std::int32_t i, auto visit) {
+          if (a.line_landmarks[map.index(i)] != kNone) return;
+          for (std::size_t j = 0; j < b.frame.lines.size(); ++j)
+            if (may_match(map.index(i), j)) visit(static_cast<std::int32_t>(j));
         },
         pairs_);
     int added = 0;
@@ -202,7 +196,23 @@ class NewLandmarks {
 
   SE3<S> b_from_a_;
   FeatureGrid<S> grid_;
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
+
+template <Scalar S>
+int NewLandmarks<S>::create(Map<S>& map, KeyframeId id, S median_depth) {
+  int added = 0;
+  const auto neighbours = map.keyframes[map.index(id)].neighbours;
+  for (std::size_t i = 0; i < neighbours.size() && i < options.max_neighbours; ++i) {
+    const Keyframe<S>& a = map.keyframes[map.index(id)];
+    const Keyframe<S>& b = map.keyframes[map.index(neighbours[i].keyframe)];
+    b_from_a_ = b.cam_from_world * a.cam_from_world.inverse();
+    if (b_from_a_.translation.norm() < options.min_baseline * median_depth) continue;
+    if (options.use_points) added += create_points(map, id, neighbours[i].keyframe, median_depth);
+    if (options.use_lines) added += create_lines(map, id, neighbours[i].keyframe, median_depth);
+  }
+  return added;
+}
 
 }  // namespace sslam

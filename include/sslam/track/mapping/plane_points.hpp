@@ -9,7 +9,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/feature_grid.hpp"
 #include "sslam/map/plane_extent.hpp"
-#include "sslam/track/matching/match_points.hpp"
+#include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
 
@@ -68,7 +68,7 @@ class PlanePoints {
     for (std::size_t i = 0; i < intersections_.size(); ++i)
       if (a.point_landmarks[i] == kNone)
         intersections_[i] = meet(map, a, a.frame.points[i].pixel, median_depth);
-    match_points_mutually<S>(
+    matcher_.match(
         a.frame.points, b.frame.points, options.match,
         [&](std::int32_t i, auto visit) {
           const auto& hit = intersections_[map.index(i)];
@@ -120,6 +120,7 @@ class PlanePoints {
   std::vector<PlaneExtent<S>> extents_;  // by plane
   FeatureGrid<S> grid_;
   std::vector<std::optional<Intersection>> intersections_;  // by feature
+  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
 };
 

@@ -80,20 +80,7 @@ class ManhattanPlanes {
     visit_stage("points.", self.points, visit);
   }
 
-  void find(Map<S>& map, KeyframeId id, S median_depth) {
-    if (options.min_members == 0) return;
-    depth_ = median_depth;
-    settle(map);
-    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    if (!keyframe.manhattan || !(angle_between(keyframe.manhattan->cam_from_world,
-                                               keyframe.cam_from_world.rotation) < options.max_turn))
-      return;
-    local_.gather_around(map, id, options.max_keyframes);
-    const auto axes = static_cast<std::int8_t>(3 * map.world_from_manhattan.size());
-    for (std::int8_t axis = 0; axis < axes; ++axis)
-      if (stands_for_itself(map.world_from_manhattan, axis)) find_across(map, axis);
-    points.create(map, id, median_depth);
-  }
+  void find(Map<S>& map, KeyframeId id, S median_depth);
 
  private:
   struct Candidate {
@@ -220,6 +207,22 @@ class ManhattanPlanes {
   std::vector<Candidate> candidates_;
   std::vector<S> offsets_;
 };
+
+template <Scalar S>
+void ManhattanPlanes<S>::find(Map<S>& map, KeyframeId id, S median_depth) {
+  if (options.min_members == 0) return;
+  depth_ = median_depth;
+  settle(map);
+  const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+  if (!keyframe.manhattan || !(angle_between(keyframe.manhattan->cam_from_world,
+                                             keyframe.cam_from_world.rotation) < options.max_turn))
+    return;
+  local_.gather_around(map, id, options.max_keyframes);
+  const auto axes = static_cast<std::int8_t>(3 * map.world_from_manhattan.size());
+  for (std::int8_t axis = 0; axis < axes; ++axis)
+    if (stands_for_itself(map.world_from_manhattan, axis)) find_across(map, axis);
+  points.create(map, id, median_depth);
+}
 static_assert(PlaneStep<ManhattanPlanes<float>, float> && PlaneStep<ManhattanPlanes<double>, double>);
 
 }  // namespace sslam

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Line matching: landmarks by reprojection search, and two sets of segments by descriptor.
+// Line matching: landmarks by reprojection search.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/track/matching/match_points.hpp"
@@ -123,26 +122,6 @@ int match_lines_by_projection(const Map<S>& map, std::span<const LandmarkId> can
     seen(id, found);
   }
   return matched;
-}
-
-// Segments of two images that are each other's best match by descriptor among those that `allowed(i, j)` lets
-// by.
-template <Scalar S, class Allowed>
-void match_lines_mutually(std::span<const LineFeature<S>> a, std::span<const LineFeature<S>> b,
-                          const LineMatchOptions<S>& options, Allowed allowed,
-                          std::vector<IndexPair>& pairs) {
-  pairs.clear();
-  std::vector<std::pair<int, std::int32_t>> holder(b.size(), {std::numeric_limits<int>::max(), kNone});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    BestTwo two;
-    for (std::size_t j = 0; j < b.size(); ++j)
-      if (allowed(i, j)) two.offer(hamming(a[i].descriptor, b[j].descriptor), static_cast<std::int32_t>(j));
-    if (!two.accepted(options.max_distance, options.max_ratio)) continue;
-    auto& held = holder[static_cast<std::size_t>(two.index)];
-    if (two.best < held.first) held = {two.best, static_cast<std::int32_t>(i)};
-  }
-  for (std::size_t j = 0; j < holder.size(); ++j)
-    if (holder[j].second != kNone) pairs.push_back({holder[j].second, static_cast<std::int32_t>(j)});
 }
 
 }  // namespace sslam

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point matching: landmarks by projection, two frames by window, and a keyframe by descriptors alone.
+// Point matching: landmarks by projection, and the pairs of two images that turn alike.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -141,32 +142,13 @@ void keep_consistent_rotation(std::span<const PointFeature<S>> a, std::span<cons
   for (const auto& p : pairs) ++histogram[bin_of(p)];
   std::array<std::size_t, kBins> order{};
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](auto x, auto y) { return histogram[x] > histogram[y]; });
+  std::sort(order.begin(), order.end(), [&](auto x, auto y) {
+    return histogram[x] != histogram[y] ? histogram[x] > histogram[y] : x < y;
+  });
   const int least = histogram[order[0]] / 10;
   std::array<bool, kBins> keep{};
   for (std::size_t k = 0; k < 3; ++k) keep[order[k]] = histogram[order[k]] > least;
   std::erase_if(pairs, [&](const IndexPair& p) { return !keep[bin_of(p)]; });
-}
-
-// Pairs of features that are each other's best match; `allowed(i, j)` is the geometric gate, and
-// `neighbourhood(i, visit)` calls visit(j) for the candidates in b of feature i of a.
-template <Scalar S, class Neighbourhood>
-void match_points_mutually(std::span<const PointFeature<S>> a, std::span<const PointFeature<S>> b,
-                           const PointMatchOptions<S>& options, Neighbourhood neighbourhood,
-                           std::vector<IndexPair>& pairs) {
-  pairs.clear();
-  std::vector<std::pair<int, std::int32_t>> holder(b.size(), {std::numeric_limits<int>::max(), kNone});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    BestTwo two;
-    neighbourhood(static_cast<std::int32_t>(i), [&](std::int32_t j) {
-      two.offer(hamming(a[i].descriptor, b[static_cast<std::size_t>(j)].descriptor), j);
-    });
-    if (!two.accepted(options.max_distance, options.max_ratio)) continue;
-    auto& held = holder[static_cast<std::size_t>(two.index)];
-    if (two.best < held.first) held = {two.best, static_cast<std::int32_t>(i)};
-  }
-  for (std::size_t j = 0; j < holder.size(); ++j)
-    if (holder[j].second != kNone) pairs.push_back({holder[j].second, static_cast<std::int32_t>(j)});
 }
 
 }  // namespace sslam

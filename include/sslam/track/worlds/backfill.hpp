@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <deque>
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/mapping/keyframe_cursor.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
+#include "sslam/track/worlds/waiting_frames.hpp"
 
 namespace sslam {
 
 template <Scalar S>
 struct BackfillOptions {
-  std::size_t max_frames = 150;  // that are kept while waiting: about 5 s, 100 kB each
+  std::size_t max_frames = 150;  // that are kept while waiting: about 5 s, 100 kB each, which stays in use
   int max_misses = 5;            // frames in a row, as blurred ones are, beyond which a sweep may go on
 
   template <class Self, class Visit>
@@ -38,17 +38,16 @@ class Backfill {
   // `placed`: the frame has a pose, in a map that may yet be given up.
   void keep(const TrackedFrame<S>& frame, bool placed) {
     if (options.max_frames == 0) return;
-    if (waiting_.size() == options.max_frames) waiting_.pop_front();
-    waiting_.push_back({frame, placed});
+    waiting_.add(frame, placed, options.max_frames);
   }
 
   void clear() { waiting_.clear(); }
 
   // The world in which rotations and poses were seen is given up.
   void leave_world() {
-    for (Waiting& w : waiting_) {
-      w.frame.forget_manhattan();
-      w.placed = false;
+    for (std::ptrdiff_t i = 0; i < waiting_.size(); ++i) {
+      waiting_[i].frame.forget_manhattan();
+      waiting_[i].placed = false;
     }
   }
 
@@ -60,9 +59,9 @@ class Backfill {
            Mapping& mapping, TrajectoryLog<S>& log) {
     const auto position = [&](KeyframeId id, int after) {  // of the first waiting frame past the keyframe's
       const std::int64_t index = map.keyframes[map.index(id)].frame.index + after;
-      const auto at = std::find_if(waiting_.begin(), waiting_.end(),
-                                   [&](const Waiting& w) { return w.frame.frame.index >= index; });
-      return at - waiting_.begin();
+      std::ptrdiff_t at = 0;
+      while (at < waiting_.size() && waiting_[at].frame.frame.index < index) ++at;
+      return at;
     };
     const auto sweep_from = [&](KeyframeId from, std::ptrdiff_t begin, std::ptrdiff_t end,
                                 std::ptrdiff_t step) {
@@ -91,20 +90,15 @@ class Backfill {
   template <class Fallback, class Refinement>
   void run_back(Map<S>& map, Fallback& fallback, Refinement& refinement, const TrackedFrame<S>& found,
                 KeyframeId reference, TrajectoryLog<S>& log) {
-    const auto last_placed =
-        std::find_if(waiting_.rbegin(), waiting_.rend(), [](const Waiting& w) { return w.placed; });
+    std::ptrdiff_t last_placed = waiting_.size() - 1;
+    while (last_placed >= 0 && !waiting_[last_placed].placed) --last_placed;
     previous_.read_back(found);
     sweep(
-        map, fallback, refinement, std::ssize(waiting_) - 1, waiting_.rend() - last_placed - 1, -1,
+        map, fallback, refinement, waiting_.size() - 1, last_placed, -1,
         [&](const TrackedFrame<S>&, const PoseEstimate<S>&) { return reference; }, log);
   }
 
  private:
-  struct Waiting {
-    TrackedFrame<S> frame;
-    bool placed;
-  };
-
   // Tracks the waiting frames from `begin` on, each from previous_, until too many in a row have no pose.
   // Those that have one are shown to take(frame, estimate), which answers with their reference keyframe, and
   // go into the log. The position after the last of them.
@@ -113,7 +107,7 @@ class Backfill {
                        std::ptrdiff_t end, std::ptrdiff_t step, Take take, TrajectoryLog<S>& log) {
     std::ptrdiff_t next = begin;
     for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= options.max_misses; i += step) {
-      Waiting& waiting = waiting_[static_cast<std::size_t>(i)];
+      auto& waiting = waiting_[i];
       TrackedFrame<S>& frame = waiting.frame;
       const PoseEstimate<S> estimate = track(frame, map, fallback, refinement);
       if (!estimate.ok()) continue;
@@ -134,7 +128,7 @@ class Backfill {
     return estimate.ok() ? refinement.refine(map, nullptr, frame) : estimate;
   }
 
-  std::deque<Waiting> waiting_;
+  WaitingFrames<S> waiting_;
   TrackedFrame<S> previous_;  // its matches and its pose alone
   RecentLandmarks<S> recent_;
   KeyframeCursor<S> cursor_;
