@@ -9,15 +9,12 @@
 #include "cli/shell/messages.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/system/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
 
-void check(const ParameterAnswer& answer) {
-  if (!answer.ok()) throw Error("--set " + answer.message);
-}
-
-ParameterValue parse_value(const std::string& text) {
+ParameterValue parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
@@ -79,19 +76,17 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
 }
 
 std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set) {
-  ParameterTable table = parameters_of(preset);
-  std::vector<ParameterValue> values;
-  for (const std::string& text : set) {
-    values.push_back(parse_value(text));
-    check(table.set(values.back().name, values.back().value));
-  }
-  check(table.check());
-  return values;
+  std::vector<ParameterValue> overrides;
+  for (const std::string& text : set) overrides.push_back(parse_override(text));
+  ParameterTable table = all_parameters(preset);
+  const ParameterAnswer answer = sslam::set_parameters(overrides, table);
+  if (!answer.ok()) throw Error("--set " + answer.message);
+  return overrides;
 }
 
 std::string describe_parameters() {
   std::string text, group;
-  const ParameterTable table = parameters_of(all_presets().front());
+  const ParameterTable table = all_parameters(find_preset("structure"));
   for (const Parameter& parameter : table.entries()) {
     const std::string stage = parameter.name.substr(0, parameter.name.find('.'));
     if (!group.empty() && stage != group) text += '\n';

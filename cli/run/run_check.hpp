@@ -4,7 +4,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/normal_choice.hpp"
@@ -28,11 +27,11 @@ void check_live(const RunSettings& settings, const Preset& preset);
 // Whether the dataset has what settings.normals need.
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 
-// The values of `set`, each "stage.parameter=value", which the preset's pipeline, its front end or a source of
-// normals must take.
-std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set);
+// Each "stage.parameter=value", if the preset has all these parameters and they take these values.
+[[nodiscard]] std::vector<ParameterValue> set_parameters(const Preset& preset,
+                                                         const std::vector<std::string>& set);
 
-// All parameters by stage: name, default, unit, range and meaning, a line each.
+// Every parameter of the fullest preset by stage: name, default, unit, range and meaning, a line each.
 [[nodiscard]] std::string describe_parameters();
 
 }  // namespace sslam::cli
