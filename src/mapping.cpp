@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/system/compiled_stages.hpp"
+#include "sslam/track/mapping/mapping.hpp"
+#include "sslam/map/map_adjustment.hpp"
+#include "sslam/solver/bundle/bundle_solver.hpp"
+#include "sslam/system/compiled_kernels.hpp"
 
 namespace sslam {
+
+extern template class Map<double>;
+extern template class BundleSolver<double>;
+extern template class MapAdjustment<double, BundleSolver<double>>;
 
 template class NewLandmarks<double>;
 template class LandmarkFusion<double>;

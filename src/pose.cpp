@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/system/compiled_stages.hpp"
+#include "sslam/system/compiled_kernels.hpp"
+#include "sslam/track/localise/fallback.hpp"
+#include "sslam/track/localise/refinement.hpp"
+#include "sslam/track/localise/relocalisation.hpp"
+#include "sslam/track/localise/translation.hpp"
 
 namespace sslam {
 

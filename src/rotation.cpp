@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/system/compiled_stages.hpp"
+#include "sslam/track/localise/rotation.hpp"
+#include "sslam/system/compiled_kernels.hpp"
 
 namespace sslam {
 

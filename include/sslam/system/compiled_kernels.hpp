@@ -3,7 +3,14 @@
 // pipeline.
 #pragma once
 
-#include "sslam/track/presets.hpp"
+#include "sslam/manhattan/rotation.hpp"
+#include "sslam/manhattan/search.hpp"
+#include "sslam/solver/pose/pose_refinement.hpp"
+#include "sslam/solver/triangulation/triangulate_line.hpp"
+#include "sslam/solver/triangulation/triangulate_point.hpp"
+#include "sslam/solver/two_view/find_relative_pose.hpp"
+#include "sslam/solver/two_view/relative_pose.hpp"
+#include "sslam/solver/two_view/translation.hpp"
 
 namespace sslam {
 
