@@ -15,7 +15,7 @@ TEST_CASE("Level lines run across the slope, with the brighter side to their lef
   CHECK(lines.places().size() == 19 * 9);
   for (const int place : lines.places()) {
     CHECK(lines.slope(place) == Approx(10));
-    // Up the screen: bright lies to the right of the screen, which is to the left hand of what goes down.
+    // Down the screen: what lies to the right of it is then to the left hand.
     CHECK(std::abs(lines.direction(place).y()) == Approx(1));
     CHECK(cross(Vec2<float>(lines.direction(place)), Vec2<float>(1, 0)) < 0);
   }
