@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sslam/geometry/line2.hpp"
 #include "support/catch.hpp"
 #include "support/drawn_image.hpp"
 
