@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sslam/geometry/line2.hpp"
 #include "support/catch.hpp"
 #include "support/drawn_image.hpp"
 
@@ -15,7 +16,7 @@ TEST_CASE("Level lines run across the slope, with the brighter side to their lef
   CHECK(lines.places().size() == 19 * 9);
   for (const int place : lines.places()) {
     CHECK(lines.slope(place) == Approx(10));
-    // Up the screen: bright lies to the right of the screen, which is to the left hand of what goes down.
+    // Down the screen: what lies to the right of it is then to the left hand.
     CHECK(std::abs(lines.direction(place).y()) == Approx(1));
     CHECK(cross(Vec2<float>(lines.direction(place)), Vec2<float>(1, 0)) < 0);
   }
@@ -23,10 +24,8 @@ TEST_CASE("Level lines run across the slope, with the brighter side to their lef
 
 TEST_CASE("The steepest places come first, and flat ones have no level line") {
   LevelLines lines;
-  lines.compute(draw({30, 10}, [](double x, double) { return x < 10   ? 50.0
-                                                             : x < 20 ? 55.0
-                                                                      : 150.0; }).view(),
-                3);
+  const auto two_steps = [](double x, double) { return 50.0 + (x > 9.5 ? 5 : 0) + (x > 19.5 ? 95 : 0); };
+  lines.compute(draw({30, 10}, two_steps).view(), 3);
   REQUIRE(lines.places().size() == 2 * 9);
   for (std::size_t i = 0; i < 9; ++i) CHECK(lines.pixel(lines.places()[i]).x() == Approx(19.5));
   for (std::size_t i = 9; i < 18; ++i) CHECK(lines.pixel(lines.places()[i]).x() == Approx(9.5));

@@ -2,6 +2,7 @@
 // Images for the tests of the front end.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

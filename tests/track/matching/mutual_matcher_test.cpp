@@ -23,7 +23,7 @@ Points points_with(std::initializer_list<int> bits) {
   return points;
 }
 
-const auto kAll = [](const Points& b) {
+const auto all_of = [](const Points& b) {
   return [&b](std::int32_t, auto visit) {
     for (std::size_t j = 0; j < b.size(); ++j) visit(static_cast<std::int32_t>(j));
   };
@@ -40,7 +40,7 @@ bool has(const std::vector<IndexPair>& pairs, std::int32_t first, std::int32_t s
 TEST_CASE("Features that look alike become pairs, in whatever order they come") {
   const Points a = points_with({0, 100, 200}), b = points_with({205, 3, 90});
   std::vector<IndexPair> pairs;
-  MutualMatcher().match(a, b, PointMatchOptions<double>{}, kAll(b), pairs);
+  MutualMatcher().match(a, b, PointMatchOptions<double>{}, all_of(b), pairs);
   CHECK(pairs.size() == 3);
   CHECK(has(pairs, 0, 1));
   CHECK(has(pairs, 1, 2));
@@ -50,7 +50,7 @@ TEST_CASE("Features that look alike become pairs, in whatever order they come") 
 TEST_CASE("A feature that two want goes to the nearer one, and the other has none") {
   const Points a = points_with({10, 14}), b = points_with({13, 200});
   std::vector<IndexPair> pairs;
-  MutualMatcher().match(a, b, PointMatchOptions<double>{}, kAll(b), pairs);
+  MutualMatcher().match(a, b, PointMatchOptions<double>{}, all_of(b), pairs);
   REQUIRE(pairs.size() == 1);
   CHECK(has(pairs, 1, 0));
 }
@@ -59,11 +59,11 @@ TEST_CASE("What differs too much, or looks like two, is not matched") {
   std::vector<IndexPair> pairs{{7, 7}};
   const Points a = points_with({0}), far = points_with({65}), twins = points_with({20, 21});
   MutualMatcher matcher;
-  matcher.match(a, far, PointMatchOptions<double>{.max_distance = 64}, kAll(far), pairs);
+  matcher.match(a, far, PointMatchOptions<double>{.max_distance = 64}, all_of(far), pairs);
   CHECK(pairs.empty());
-  matcher.match(a, far, PointMatchOptions<double>{.max_distance = 65}, kAll(far), pairs);
+  matcher.match(a, far, PointMatchOptions<double>{.max_distance = 65}, all_of(far), pairs);
   CHECK(pairs.size() == 1);
-  matcher.match(a, twins, PointMatchOptions<double>{}, kAll(twins), pairs);
+  matcher.match(a, twins, PointMatchOptions<double>{}, all_of(twins), pairs);
   CHECK(pairs.empty());
 }
 
