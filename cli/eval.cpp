@@ -17,6 +17,7 @@
 #include "cli/shell/messages.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {

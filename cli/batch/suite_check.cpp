@@ -7,6 +7,7 @@
 #include "cli/results/truth_source.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {

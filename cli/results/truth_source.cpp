@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "io/errors.hpp"
 #include "io/shared_data.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;
