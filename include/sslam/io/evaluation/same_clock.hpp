@@ -17,7 +17,7 @@ namespace sslam::io {
 [[nodiscard]] inline StampUnit unit_on_clock(std::span<const double> reference,
                                              std::span<const double> stamps, double max_difference) {
   constexpr std::size_t kFewest = 3, kMoreOften = 4;
-  StampUnit best = kSeconds;
+  StampUnit best;
   std::size_t most = associate(reference, stamps, max_difference).size();
   if (2 * most >= std::min(reference.size(), stamps.size())) return best;
   for (const StampUnit& unit : {kMilliseconds, kMicroseconds, kNanoseconds}) {

@@ -19,7 +19,7 @@ struct StampUnit {
   [[nodiscard]] constexpr bool is_seconds() const noexcept { return per_second == 1; }
 };
 
-inline constexpr StampUnit kSeconds{}, kMilliseconds{"milliseconds", 1e3}, kMicroseconds{"microseconds", 1e6},
+inline constexpr StampUnit kMilliseconds{"milliseconds", 1e3}, kMicroseconds{"microseconds", 1e6},
     kNanoseconds{"nanoseconds", 1e9};
 
 // Whose stamps they are. Steps of tens between images are milliseconds; poses may be tens of seconds apart,
@@ -56,7 +56,7 @@ enum class StampsOf { kImages, kOther };
   if (whole && step >= 1.5e6) return kNanoseconds;
   if (whole && step >= 2e3) return kMicroseconds;
   if (whose == StampsOf::kImages && step >= 10) return kMilliseconds;
-  return kSeconds;
+  return {};
 }
 
 // What a reader says that has turned them into seconds.
