@@ -54,7 +54,17 @@ std::optional<io::Delta> parse_delta(std::string text) {
   return delta;
 }
 
-// An estimate on the clock of the ground truth. Throws Error when the two cannot have one clock.
+// Stamps that are too small to show their unit show it beside the others.
+void bring_to_clock(const io::Trajectory& reference, io::Trajectory& poses, const std::string& file,
+                    double max_difference, io::Warnings& warnings) {
+  const io::StampUnit unit =
+      io::unit_on_clock(io::stamps_of(reference), io::stamps_of(poses), max_difference);
+  if (unit.is_seconds()) return;
+  for (io::StampedPose& pose : poses) pose.stamp /= unit.per_second;
+  warnings.push_back(file + ": " + io::unit_note(unit));
+}
+
+// Throws Error when one has stamps and the other has none.
 io::Trajectory take_estimate(const std::string& file, const EvalSettings& settings, const TruthSource& truth,
                              io::Warnings& warnings) {
   io::PoseFile estimate = load_estimate(file, warnings, settings.times);
@@ -68,26 +78,24 @@ io::Trajectory take_estimate(const std::string& file, const EvalSettings& settin
                        ": has fewer rows than the ground truth, and neither has stamps: rows are compared "
                        "with those of the same number");
   }
-  const io::StampUnit unit = io::unit_on_clock(stamps_of(truth.trajectory), stamps_of(estimate.trajectory),
-                                               settings.options.max_difference);
-  if (!unit.is_seconds()) warnings.push_back(file + ": " + io::unit_note(unit));
-  for (io::StampedPose& pose : estimate.trajectory)
-    pose.stamp = pose.stamp / unit.per_second + settings.offset;
+  for (io::StampedPose& pose : estimate.trajectory) pose.stamp += settings.offset;
   return std::move(estimate.trajectory);
 }
 
 nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& settings,
                                 const TruthSource& truth) {
   io::Warnings warnings;
-  const io::Trajectory estimate = take_estimate(file, settings, truth, warnings);
+  io::Trajectory estimate = take_estimate(file, settings, truth, warnings), against = truth.trajectory;
+  bring_to_clock(against, estimate, file, settings.options.max_difference, warnings);
+  bring_to_clock(estimate, against, settings.truth, settings.options.max_difference, warnings);
   print_warnings(warnings);
-  const io::Evaluation evaluation = io::evaluate(truth.trajectory, estimate, settings.options);
+  const io::Evaluation evaluation = io::evaluate(against, estimate, settings.options);
   if (settings.estimates.size() > 1) std::printf("%s\n", file.c_str());
   std::fputs(evaluation_table(evaluation).c_str(), stdout);
   if (settings.estimates.size() > 1) std::fputs("\n", stdout);
   if (!settings.plot.empty()) {
     io::write_top_view(settings.plot,
-                       io::comparison_view(truth.trajectory, estimate, evaluation.truth_from_estimate,
+                       io::comparison_view(against, estimate, evaluation.truth_from_estimate,
                                            estimate.front().stamp, estimate.back().stamp, file));
   }
   nlohmann::ordered_json json = {{"ground_truth", settings.truth}, {"estimate", file}};
