@@ -17,6 +17,7 @@
 #include "rotation_offsets.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/manhattan/search.hpp"
 #include "sslam/opencv/image_frontend.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sslam eval GROUNDTRUTH ESTIMATE`: how good a trajectory is.
+// `sslam eval GROUNDTRUTH ESTIMATE...`: how good trajectories are.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -14,8 +14,10 @@
 #include "cli/results/eval_report.hpp"
 #include "cli/results/truth_source.hpp"
 #include "cli/shell/choice_option.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
+#include "sslam/io/evaluation/same_clock.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 
 namespace sslam::cli {
@@ -28,7 +30,9 @@ const std::map<std::string, FileAxes> kAxesNames{
 
 struct EvalSettings {
   std::string truth;
-  std::string estimate;
+  std::vector<std::string> estimates;
+  std::string times;  // of files without stamps; empty: looked for beside them
+  double offset = 0;  // added to the stamps of the estimates
   io::EvaluationOptions options;
   std::vector<std::string> deltas;
   FileAxes axes = FileAxes::kAuto;
@@ -50,30 +54,83 @@ std::optional<io::Delta> parse_delta(std::string text) {
   return delta;
 }
 
+// Stamps that are too small to show their unit show it beside the others.
+void bring_to_clock(const io::Trajectory& reference, io::Trajectory& poses, const std::string& file,
+                    double max_difference, io::Warnings& warnings) {
+  const io::StampUnit unit =
+      io::unit_on_clock(io::stamps_of(reference), io::stamps_of(poses), max_difference);
+  if (unit.is_seconds()) return;
+  for (io::StampedPose& pose : poses) pose.stamp /= unit.per_second;
+  warnings.push_back(file + ": " + io::unit_note(unit));
+}
+
+// Throws Error when one has stamps and the other has none.
+io::Trajectory take_estimate(const std::string& file, const EvalSettings& settings, const TruthSource& truth,
+                             io::Warnings& warnings) {
+  io::PoseFile estimate = load_estimate(file, warnings, settings.times);
+  if (estimate.counted != truth.counted) {
+    throw Error(
+        (truth.counted ? settings.truth : file) +
+        ": its poses have no stamps; put their times into times.txt beside it or name them with --times");
+  }
+  if (estimate.counted && estimate.trajectory.size() + estimate.no_pose < truth.trajectory.size()) {
+    warnings.push_back(file +
+                       ": has fewer rows than the ground truth, and neither has stamps: rows are compared "
+                       "with those of the same number");
+  }
+  for (io::StampedPose& pose : estimate.trajectory) pose.stamp += settings.offset;
+  return std::move(estimate.trajectory);
+}
+
+nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& settings,
+                                const TruthSource& truth) {
+  io::Warnings warnings;
+  io::Trajectory estimate = take_estimate(file, settings, truth, warnings), against = truth.trajectory;
+  bring_to_clock(against, estimate, file, settings.options.max_difference, warnings);
+  bring_to_clock(estimate, against, settings.truth, settings.options.max_difference, warnings);
+  print_warnings(warnings);
+  const io::Evaluation evaluation = io::evaluate(against, estimate, settings.options);
+  if (settings.estimates.size() > 1) std::printf("%s\n", file.c_str());
+  std::fputs(evaluation_table(evaluation).c_str(), stdout);
+  if (settings.estimates.size() > 1) std::fputs("\n", stdout);
+  if (!settings.plot.empty()) {
+    io::write_top_view(settings.plot,
+                       io::comparison_view(against, estimate, evaluation.truth_from_estimate,
+                                           estimate.front().stamp, estimate.back().stamp, file));
+  }
+  nlohmann::ordered_json json = {{"ground_truth", settings.truth}, {"estimate", file}};
+  json.update(evaluation_json(evaluation));
+  return json;
+}
+
 void run_eval(EvalSettings settings) {
-  const TruthSource truth = load_truth(settings.truth, settings.axes);
+  if (!settings.plot.empty() && settings.estimates.size() > 1)
+    throw CLI::ValidationError("--plot",
+                               "draws one estimate, found " + std::to_string(settings.estimates.size()));
+  const TruthSource truth = load_truth(settings.truth, settings.axes, settings.times);
   print_warnings(truth.warnings);
   if (truth.mirrored) print_note(settings.truth + ": poses with y up, mirrored to y down (see --axes)");
-  io::Warnings warnings;
-  const io::Trajectory estimate = io::read_trajectory(settings.estimate, warnings);
-  print_warnings(warnings);
   io::EvaluationOptions& options = settings.options;
   options.seconds_per_stamp = truth.seconds_per_stamp;
   if (options.frames == 0) options.frame_stamps = truth.frame_stamps;
   if (!settings.deltas.empty()) options.deltas.clear();
   for (const std::string& text : settings.deltas) options.deltas.push_back(parse_delta(text).value());
-  const io::Evaluation evaluation = io::evaluate(truth.trajectory, estimate, options);
-  std::fputs(evaluation_table(evaluation).c_str(), stdout);
-  if (!settings.json.empty()) {
-    nlohmann::ordered_json json = {{"ground_truth", settings.truth}, {"estimate", settings.estimate}};
-    json.update(evaluation_json(evaluation));
-    write_json(settings.json, json);
+  if (settings.estimates.size() == 1) {
+    const nlohmann::ordered_json json = eval_one(settings.estimates.front(), settings, truth);
+    if (!settings.json.empty()) write_json(settings.json, json);
+    return;
   }
-  if (!settings.plot.empty()) {
-    io::write_top_view(settings.plot,
-                       io::comparison_view(truth.trajectory, estimate, evaluation.truth_from_estimate,
-                                           estimate.front().stamp, estimate.back().stamp, settings.estimate));
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const std::string& file : settings.estimates) {
+    try {
+      all.push_back(eval_one(file, settings, truth));
+    } catch (const Error& error) {
+      print_error(error.what());  // the others have their figures nevertheless
+    }
   }
+  if (!settings.json.empty())
+    write_json(settings.json, {{"ground_truth", settings.truth}, {"estimates", all}});
+  if (all.size() < settings.estimates.size()) throw Stop{ExitCode::kFailed};
 }
 
 }  // namespace
@@ -82,9 +139,15 @@ void add_eval_command(CLI::App& app) {
   CLI::App* eval = app.add_subcommand("eval", "Compare a trajectory with ground truth (ATE, RPE, rotation)");
   auto settings = std::make_shared<EvalSettings>();
   io::EvaluationOptions& options = settings->options;
-  eval->add_option("GROUNDTRUTH", settings->truth, "trajectory in TUM format, or the folder of a dataset")
+  eval->add_option("GROUNDTRUTH", settings->truth,
+                   "trajectory (TUM, EuRoC, KITTI, 4x4 matrices), or the folder of a dataset or a run")
       ->required();
-  eval->add_option("ESTIMATE", settings->estimate, "trajectory in TUM format, camera to world")->required();
+  eval->add_option("ESTIMATE", settings->estimates,
+                   "trajectories, camera to world, or folders of runs; several are told one after the other")
+      ->required();
+  eval->add_option("--times", settings->times, "stamps of trajectories without any (KITTI), one a row")
+      ->type_name("FILE");
+  eval->add_option("--offset", settings->offset, "seconds to add to the stamps of ESTIMATE; default 0");
   add_choice(*eval, "--align", options.alignment, kAlignmentNames,
              "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3");
   eval->add_option("--max-difference", options.max_difference, "between the stamps of a pair; default 0.02")

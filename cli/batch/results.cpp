@@ -8,6 +8,7 @@
 #include "cli/batch/run_mark.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {

@@ -7,6 +7,7 @@
 #include "cli/results/truth_source.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -53,9 +54,13 @@ class SuiteCheck {
     in(sequence.line, "[[sequence]]", [&] {
       dataset = open_run_dataset(settings);
       camera = choose_run_camera(settings, dataset);
-      const io::Trajectory truth = sequence.truth.empty()
-                                       ? dataset.ground_truth
-                                       : load_truth(sequence.truth, FileAxes::kAuto).trajectory;
+      io::Trajectory truth = dataset.ground_truth;
+      if (!sequence.truth.empty()) {
+        TruthSource source = load_truth(sequence.truth, FileAxes::kAuto);
+        if (source.counted)
+          throw Error(sequence.truth.string() + ": its poses have no stamps; put times.txt beside it");
+        truth = std::move(source.trajectory);
+      }
       facts.truth = truth_during(dataset, truth);
       if (facts.truth.empty() && !sequence.truth.empty())
         throw Error(sequence.truth.string() + ": no pose at the time of the images of " + sequence.dataset);

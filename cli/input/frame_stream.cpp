@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/input/frame_stream.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "cli/shell/interrupt.hpp"
 
 namespace sslam::cli {
 
@@ -21,7 +24,10 @@ FrameStream::~FrameStream() {
 
 bool FrameStream::next(ExtractedFrame& out) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return !ready_.empty() || finished_; });
+  // A signal handler may not notify: it is asked often enough that nobody notices.
+  constexpr std::chrono::milliseconds kLook{50};
+  while (!changed_.wait_for(lock, kLook, [&] { return !ready_.empty() || finished_; }))
+    if (Interrupt::asked()) return false;
   if (ready_.empty()) {
     if (failure_) std::rethrow_exception(failure_);
     return false;
@@ -62,7 +68,8 @@ void FrameStream::produce() {
 // A frame that finds no room comes late: none is dropped. False: the stream is to stop.
 bool FrameStream::wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry) {
   if (pace_ == 0) return true;
-  const double since = (entry.stamp - dataset_.frames.front().stamp) * pace_;
+  constexpr double kLongest = 1e9;  // 30 years: the clock's own unit cannot count all stamps
+  const double since = std::min((entry.stamp - dataset_.frames.front().stamp) * pace_, kLongest);
   const auto due = start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since));
   return !changed_.wait_until(lock, due, [&] { return stop_; });
 }

@@ -34,7 +34,8 @@ class FrameStream {
 
   [[nodiscard]] std::size_t size() const noexcept { return dataset_.frames.size(); }
 
-  // The next frame in order; false at the end. The old contents of `out` are recycled.
+  // The next frame in order; false at the end, or when Ctrl-C is pressed during the wait for it. The old
+  // contents of `out` are recycled.
   [[nodiscard]] bool next(ExtractedFrame& out);
 
  private:

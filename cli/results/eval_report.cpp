@@ -60,6 +60,7 @@ std::string evaluation_table(const io::Evaluation& e) {
     text += error_row(step + ", translation", relative.translation, "m");
     text += error_row(step + ", rotation", in_degrees(relative.rotation), "deg");
   }
+  for (const std::string& note : e.notes) text += "note: " + note + '\n';
   return text;
 }
 
@@ -92,6 +93,7 @@ nlohmann::ordered_json evaluation_json(const io::Evaluation& e) {
                            {"translation_m", statistics_json(relative.translation)},
                            {"rotation_deg", statistics_json(in_degrees(relative.rotation))}});
   }
+  json["notes"] = e.notes;
   return json;
 }
 

@@ -5,6 +5,7 @@
 
 #include "cli/results/view_file.hpp"
 #include "sslam/io/maps/map_file.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {

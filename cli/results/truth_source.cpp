@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/results/run_folder.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 
 namespace sslam::cli {
@@ -11,6 +12,7 @@ namespace {
 
 TruthSource from_folder(const std::filesystem::path& folder, FileAxes axes) {
   io::Dataset dataset = io::open_dataset(folder);
+  if (!dataset.truth_problem.empty()) throw Error(dataset.truth_problem);
   if (dataset.ground_truth.empty()) throw Error(folder.string() + ": this dataset has no ground truth");
   TruthSource source;
   source.trajectory = std::move(dataset.ground_truth);
@@ -38,13 +40,23 @@ std::optional<io::Dataset> dataset_around(const std::filesystem::path& file) {
   }
 }
 
+// A run keeps its ground truth; what it leaves looks like no dataset.
+bool is_run_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder / "metrics.json", ignored);
+}
+
 }  // namespace
 
-TruthSource load_truth(const std::filesystem::path& path, FileAxes axes) {
+TruthSource load_truth(const std::filesystem::path& path, FileAxes axes, const std::filesystem::path& times) {
   std::error_code ignored;
+  if (is_run_folder(path) && std::filesystem::exists(path / kTruthFile, ignored))
+    return load_truth(path / kTruthFile, axes);
   if (std::filesystem::is_directory(path, ignored)) return from_folder(path, axes);
   TruthSource source;
-  source.trajectory = io::read_trajectory(path, source.warnings);
+  io::PoseFile file = io::read_pose_file(path, source.warnings, times);
+  source.trajectory = std::move(file.trajectory);
+  source.counted = file.counted;
   const std::optional<io::Dataset> dataset = dataset_around(path);
   const bool icl_nuim =
       path.extension() == ".freiburg" || (dataset && dataset->layout == io::Layout::kIclNuim);
@@ -53,6 +65,15 @@ TruthSource load_truth(const std::filesystem::path& path, FileAxes axes) {
   source.mirrored = axes == FileAxes::kAuto ? icl_nuim : axes == FileAxes::kYUp;
   if (source.mirrored) io::mirror_y(source.trajectory);
   return source;
+}
+
+io::PoseFile load_estimate(const std::filesystem::path& path, io::Warnings& warnings,
+                           const std::filesystem::path& times) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return io::read_pose_file(path, warnings, times);
+  if (std::filesystem::exists(path / "trajectory.txt", ignored))
+    return io::read_pose_file(path / "trajectory.txt", warnings, times);
+  throw Error(path.string() + ": holds no trajectory.txt; expected a trajectory, or the folder of a run");
 }
 
 io::Trajectory truth_during(const io::Dataset& dataset, const io::Trajectory& truth) {

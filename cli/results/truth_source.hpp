@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ground truth as the user names it: a trajectory file or a dataset folder, turned to our axes.
+// Trajectories as the user names them: a ground truth is a file, or the folder of a dataset or a run, turned
+// to our axes; an estimate is a file or the folder of a run.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 
 namespace sslam::cli {
@@ -17,12 +19,19 @@ struct TruthSource {
   double seconds_per_stamp = 1;      // ICL-NUIM stamps count frames
   std::vector<double> frame_stamps;  // of the images of the dataset around it; empty: not known
   bool mirrored = false;             // the file had y up
+  bool counted = false;              // the file has no stamps: they are the numbers of its rows
   io::Warnings warnings;
 };
 
 // With kAuto, a file is taken as y up when it is named like ICL-NUIM's (*.freiburg) or is the ground truth of
-// a folder in the layout of ICL-NUIM. Throws Error when there is no ground truth.
-[[nodiscard]] TruthSource load_truth(const std::filesystem::path& path, FileAxes axes);
+// a folder in the layout of ICL-NUIM. `times`: of a file without stamps; empty: looked for beside it. Throws
+// Error when there is no ground truth.
+[[nodiscard]] TruthSource load_truth(const std::filesystem::path& path, FileAxes axes,
+                                     const std::filesystem::path& times = {});
+
+// As read_pose_file, also for the folder of a run.
+[[nodiscard]] io::PoseFile load_estimate(const std::filesystem::path& path, io::Warnings& warnings,
+                                         const std::filesystem::path& times = {});
 
 // That part of the truth that was recorded while the frames of the dataset were.
 [[nodiscard]] io::Trajectory truth_during(const io::Dataset& dataset, const io::Trajectory& truth);

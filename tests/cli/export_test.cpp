@@ -8,6 +8,7 @@
 
 #include "cli/room_copy.hpp"
 #include "sslam/geometry/se3.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "support/catch.hpp"
 #include "support/colmap_model.hpp"

@@ -47,6 +47,28 @@ TEST_CASE("run --live tracks with mapping in a thread of its own") {
                   "--live: not with --preset paper; use one of structure, points, lines");
 }
 
+TEST_CASE("run --live hears Ctrl-C while it waits for an image that is an hour away") {
+  const Copy copy;
+  std::istringstream rows(text_of(copy.folder / "rgb.txt"));
+  std::string list, row;
+  for (int image = 0; std::getline(rows, row);) {
+    if (row.empty() || row.front() == '#') continue;
+    const auto blank = row.find(' ');
+    list += std::to_string(std::stod(row) + (image++ == 0 ? 0 : 3600)) + row.substr(blank) + '\n';
+  }
+  write(copy.folder / "rgb.txt", list);
+  std::filesystem::remove(copy.folder / "depth.txt");
+  std::filesystem::remove(copy.folder / "groundtruth.txt");
+  const Outcome outcome =
+      interrupt_program("run " + copy.folder.string() + " --live --normals none --out " + copy.out.string());
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 130);
+  REQUIRE(copy.metrics()["interrupted"] == true);
+  REQUIRE(copy.metrics()["states"]["initialising"] == 1);
+  for (const char* name : {"trajectory.txt", "frames.csv", "report.html"})
+    REQUIRE(fs::exists(copy.out / name));
+}
+
 TEST_CASE("run takes the network that comes with sslam unless told otherwise") {
   const Copy copy;
   Outcome outcome = copy.run_by_default("--end 20");

@@ -13,6 +13,7 @@
 
 #include "cli/program.hpp"
 #include "sslam/geometry/camera.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "support/catch.hpp"

@@ -223,6 +223,78 @@ TEST_CASE("Frames tracked are counted by their stamps") {
   CHECK(counted.frames == 60);
 }
 
+TEST_CASE("A trajectory stands still in proportion to its size, wherever it stands") {
+  const io::Trajectory truth = winding(60);
+  const auto standing = [&](const Vec3<double>& place, double shake) {
+    io::Trajectory poses = truth;
+    double sign = shake;
+    for (io::StampedPose& pose : poses) {
+      pose.world_from_cam.translation = place + Vec3<double>(sign, 0, 0);
+      sign = -sign;
+    }
+    return poses;
+  };
+  for (const Vec3<double>& place :
+       {Vec3<double>(0.3, 0.2, 0.1), Vec3<double>(0, 0, 0), Vec3<double>(1e5, 5e6, 30)}) {
+    for (const double shake : {0.0, 1e-6}) {
+      const io::Trajectory still = standing(place, shake);
+      CHECK(contains(error_of([&] { (void)io::evaluate(truth, still); }), "the estimate stands still"));
+      CHECK(contains(error_of([&] { (void)io::evaluate(still, truth); }), "the ground truth stands still"));
+    }
+  }
+  io::Trajectory far = truth;  // a small path in a large world moves
+  for (io::StampedPose& pose : far) pose.world_from_cam.translation += Vec3<double>(1e5, 5e6, 30);
+  CHECK(io::evaluate(far, truth).position.rmse < 1e-6);
+}
+
+TEST_CASE("Steps across a gap do not count") {
+  io::Trajectory truth = winding(60), estimate = truth;
+  for (std::size_t i = 30; i < 60; ++i) {  // the estimate jumps while it is lost
+    estimate[i].world_from_cam.translation += Vec3<double>(0, 5, 0);
+  }
+  estimate.erase(estimate.begin() + 28, estimate.begin() + 35);
+  const io::EvaluationOptions options{
+      .alignment = io::Alignment::kNone,
+      .deltas = {{1, io::DeltaUnit::kFrames}, {0.2, io::DeltaUnit::kSeconds}}};
+  const io::Evaluation e = io::evaluate(truth, estimate, options);
+  CHECK(e.pairs == 53);
+  CHECK(e.relative[0].translation.count == 50);  // 52 steps, without the last and the one across
+  for (const io::RelativeError& relative : e.relative) CHECK(relative.translation.max < 1e-9);
+}
+
+TEST_CASE("Doubtful figures say why") {
+  const io::Trajectory truth = winding(60);
+  const auto notes = [](const io::Trajectory& t, const io::Trajectory& estimate, io::Alignment alignment) {
+    std::string text;
+    for (const std::string& note : io::evaluate(t, estimate, {.alignment = alignment}).notes)
+      text += note + ';';
+    return text;
+  };
+  constexpr io::Alignment kScaled = io::Alignment::kSim3, kRigid = io::Alignment::kSe3;
+  CHECK(notes(truth, noisy(in_another_world(truth, 2), 1), kScaled).empty());
+  CHECK(notes(truth, noisy(truth, 1), kRigid).empty());
+  io::Trajectory w_first = truth, inverse = truth, line = truth, thousandth = truth, aimless = truth;
+  Random random(5);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const auto q = truth[i].world_from_cam.rotation.quaternion();
+    w_first[i].world_from_cam.rotation = SO3<double>::from_quaternion(q.z(), q.w(), q.x(), q.y());
+    inverse[i].world_from_cam = truth[i].world_from_cam.inverse();
+    line[i].world_from_cam.translation = Vec3<double>(0.1 * static_cast<double>(i), 0, 0);
+    thousandth[i].world_from_cam.translation *= 1e-3;
+    aimless[i].world_from_cam.translation = {random.uniform(-1, 1), random.uniform(-1, 1),
+                                             random.uniform(-1, 1)};
+  }
+  CHECK(contains(notes(truth, w_first, kScaled), "the estimate's quaternions seem to have w first"));
+  CHECK(contains(notes(w_first, truth, kScaled), "the ground truth's quaternions seem to have w first"));
+  CHECK(contains(notes(truth, inverse, kScaled), "world to camera"));
+  CHECK(contains(notes(line, line, kScaled), "lie on a line"));
+  CHECK(contains(notes(thousandth, truth, kRigid), "the estimate seems to be in millimetres"));
+  CHECK(contains(notes(truth, thousandth, kRigid), "the ground truth seems to be in millimetres"));
+  CHECK(contains(notes(truth, aimless, kScaled), "no likeness"));
+  const io::Trajectory few(truth.begin(), truth.begin() + 8);
+  CHECK(contains(notes(truth, few, kScaled), "only 8 of 8 poses have a partner"));
+}
+
 TEST_CASE("What cannot be evaluated says why") {
   const io::Trajectory truth = winding(20);
   io::Trajectory late = truth;

@@ -10,12 +10,13 @@
 
 using namespace sslam;
 
-TEST_CASE("Cells are split at blanks tabs commas and carriage returns") {
+TEST_CASE("Cells are split at blanks tabs commas semicolons and carriage returns") {
   const auto cells = io::split_cells("  1.5,2\t foo \r");
   REQUIRE(cells.size() == 3);
   CHECK(cells[0] == "1.5");
   CHECK(cells[1] == "2");
   CHECK(cells[2] == "foo");
+  CHECK(io::split_cells("1,5;\"a; b\" ; 'c'") == std::vector<std::string_view>{"1,5", "a; b", "c"});
   CHECK(io::split_cells("").empty());
   CHECK(io::split_cells(" \r").empty());
 }

@@ -3,6 +3,7 @@
 
 #include "io/errors.hpp"
 #include "io/shared_data.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;
@@ -58,8 +59,8 @@ TEST_CASE("Mirroring turns y over twice into itself") {
 TEST_CASE("A flawed row is skipped with its line number") {
   const testing::ScratchFolder scratch;
   const std::string good = " 0 0 0 0 0 0 1\n";
-  const auto bad_row = GENERATE(as<std::string>{}, "3 0 0 0 0 0 0\n", "3 0 nan 0 0 0 0 1\n",
-                                "3 0 0 x 0 0 0 1\n", "3 0 0 0 0 0 0 0\n", "3 0 0 0 0.5 0 0 0\n");
+  const auto bad_row = GENERATE(as<std::string>{}, "3 0 0 0 0 0 0\n", "3 0 0 x 0 0 0 1\n",
+                                "3 0 0 0 0.5 0 0 0\n", "nan 0 0 0 0 0 0 1\n");
   const auto path = scratch.write("t.txt", "# head\n1" + good + "2" + good + bad_row + "4" + good);
   io::Warnings warnings;
   const io::Trajectory trajectory = io::read_trajectory(path, warnings);
@@ -79,7 +80,90 @@ TEST_CASE("A file that is no trajectory says what was expected") {
   CHECK(contains(error("# only a comment\n"), "holds no pose"));
   const std::string kitti = error("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n");
   CHECK(testing::is_one_line(kitti));
-  CHECK(contains(kitti, "line 1: expected 8 numbers 'stamp tx ty tz qx qy qz qw', found 12"));
+  CHECK(contains(kitti, "its poses have no stamps; put their times into times.txt"));
+  CHECK(contains(error("1 2 3\n4 5 6\n"),
+                 "line 1: has 3 columns; expected rows of 'stamp tx ty tz qx qy qz qw'"));
+}
+
+TEST_CASE("Rows that mean no pose are left out and counted, however many") {
+  const testing::ScratchFolder scratch;
+  const auto none = GENERATE(as<std::string>{}, " nan nan nan nan nan nan nan", " 0 0 0 0 0 0 0",
+                             " -nan(ind) 0 0 0 0 0 1", " -inf -inf -inf -inf -inf -inf -inf",
+                             " 1 2 3 0 0 0 0", " None None None None None None None", " lost", "");
+  std::string text;
+  for (int i = 0; i < 9; ++i) text += std::to_string(i) + (i % 3 == 0 ? " 1 2 3 0 0 0 1" : none) + "\n";
+  const auto path = scratch.write("t.txt", text);
+  io::Warnings warnings;
+  const io::Trajectory trajectory = io::read_trajectory(path, warnings);
+  REQUIRE(trajectory.size() == 3);
+  CHECK(trajectory[1].stamp == 3);
+  REQUIRE(warnings.size() == 1);
+  CHECK(contains(warnings[0], "t.txt: 6 of 9 poses mean 'no pose here'"));
+}
+
+namespace {
+
+// A turn that tells the parts of a quaternion apart.
+const SO3<double>& some_turn() {
+  static const SO3<double> turn = SO3<double>::from_quaternion(0.5, 0.1, -0.7, 0.5);
+  return turn;
+}
+
+// `numbers` stands for the pose in each of three rows, which move along x.
+void check_three(const std::filesystem::path& path, double first, double step) {
+  io::Warnings warnings;
+  const io::Trajectory trajectory = io::read_trajectory(path, warnings);
+  REQUIRE(trajectory.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double n = static_cast<double>(i);
+    CHECK(std::abs(trajectory[i].stamp - (first + step * n)) < 1e-6);
+    CHECK((trajectory[i].world_from_cam.translation - Vec3<double>(n, 2, 3)).norm() < 1e-9);
+    CHECK(angle_between(trajectory[i].world_from_cam.rotation, some_turn()) < 1e-9);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Trajectories of other programs are told by their rows") {
+  const testing::ScratchFolder scratch;
+  const auto number = [](double value) { return io::exact_decimal(value, 12); };
+  const auto q = some_turn().quaternion();
+  const Mat3<double> r = some_turn().matrix();
+  const std::string x = number(q.x()), y = number(q.y()), z = number(q.z()), w = number(q.w());
+  const auto matrix = [&](int i, const std::string& between, bool last) {
+    std::string text;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) text += number(r(row, column)) + ' ';
+      text += number(row == 0 ? i : row + 1) + (row < 2 || last ? between : "");
+    }
+    return text + (last ? "0 0 0 1" : "");
+  };
+  const auto three = [](const auto& row) { return row(0) + '\n' + row(1) + '\n' + row(2) + '\n'; };
+  const auto ns = [](int i) { return "140363657" + std::to_string(i) + "763555584"; };
+  const auto n = [](int i) { return std::to_string(i); };
+  const std::string euroc_head =
+      "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []";
+  const auto euroc = [&](int i) { return ns(i) + "," + n(i) + ",2,3," + w + "," + x + "," + y + "," + z; };
+  check_three(scratch.write("a.csv", euroc_head + "\n" + three(euroc)), 1403636570.763555, 1);
+  check_three(scratch.write("b.csv", three(euroc)), 1403636570.763555, 1);
+  check_three(scratch.write("c.csv", euroc_head + ", v_RS_R_x [m s^-1]\n" +
+                                         three([&](int i) { return euroc(i) + ",1,2,3,4,5,6,7,8,9"; })),
+              1403636570.763555, 1);
+  const auto tum = [&](int i) { return n(i) + " " + n(i) + " 2 3 " + x + ' ' + y + ' ' + z + ' ' + w; };
+  check_three(scratch.write("d.txt", "\xEF\xBB\xBF" + three(tum)), 0, 1);
+  const auto named = [&](int i) { return n(i) + ";" + n(i) + ";2;3;" + w + ';' + x + ';' + y + ';' + z; };
+  check_three(scratch.write("e.txt", "t;tx;ty;tz;qw;qx;qy;qz\n" + three(named)), 0, 1);
+  check_three(scratch.write("f.txt", three([&](int i) { return n(i) + ' ' + matrix(i, " ", false); })), 0, 1);
+  check_three(scratch.write("g.txt", three([&](int i) { return n(i) + ' ' + matrix(i, " ", true); })), 0, 1);
+  scratch.write("times.txt", "5.5\n5.6\n5.7\n");
+  check_three(scratch.write("h.txt", three([&](int i) { return matrix(i, " ", false); })), 5.5, 0.1);
+  check_three(scratch.write("i.txt", three([&](int i) { return matrix(i, " ", true); })), 5.5, 0.1);
+  check_three(scratch.write("j.txt", three([&](int i) { return matrix(i, "\n", true); })), 5.5, 0.1);
+  scratch.write("k_times.txt", "5\n6\n");
+  const auto k = scratch.write("k.txt", three([&](int i) { return matrix(i, " ", false); }));
+  io::Warnings warnings;
+  CHECK(contains(error_of([&] { (void)io::read_trajectory(k, warnings); }),
+                 "k_times.txt: has 2 times for the 3 poses"));
 }
 
 TEST_CASE("Stamps that go backwards or repeat are put in order with a warning") {

@@ -3,12 +3,12 @@
 // stamp in a frame with y up, which are mirrored here into our axes.
 #pragma once
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sslam/io/datasets/counts_frames.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
@@ -37,21 +37,6 @@ inline constexpr double kIclNuimFrameRate = 30;
   std::error_code ignored;
   if (std::filesystem::exists(root / "groundtruth.txt", ignored)) return root / "groundtruth.txt";
   return find_published_truth(root);
-}
-
-// Whether all stamps of a list, its first column, are whole: ICL-NUIM's count frames, others are seconds.
-[[nodiscard]] inline bool counts_frames(const std::filesystem::path& list) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(list, ignored)) return false;
-  const std::string text = read_text(list);
-  bool any = false;
-  for (const TextRow& row : split_rows(text)) {
-    const auto stamp = parse_number<double>(row.cells[0]);
-    if (!stamp) continue;  // left to who reads the list
-    if (*stamp != std::floor(*stamp)) return false;
-    any = true;
-  }
-  return any;
 }
 
 // Images with numbers for names are nothing special: a folder in the layout of TUM RGB-D that has lost its
@@ -85,11 +70,7 @@ inline void require_icl_nuim(const std::filesystem::path& root) {
   if (dataset.frames.empty())
     throw Error((root / "rgb").string() + ": holds no numbered image such as 1.png");
   drop_bad_frames(dataset, root / "rgb");
-  if (const std::filesystem::path truth_file = find_icl_nuim_truth(root); !truth_file.empty()) {
-    Trajectory truth = read_trajectory(truth_file, dataset.warnings);
-    mirror_y(truth);
-    attach_ground_truth(dataset, std::move(truth), truth_file);
-  }
+  attach_truth_file(dataset, find_icl_nuim_truth(root), true);
   return dataset;
 }
 

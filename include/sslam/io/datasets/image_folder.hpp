@@ -2,27 +2,20 @@
 // A folder of images, or a glob such as DIR/left_*.png: frames in the natural order of their names.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/name_stamps.hpp"
 #include "sslam/io/files/files.hpp"
-#include "sslam/io/files/text.hpp"
+#include "sslam/io/files/stamp_unit.hpp"
 
 namespace sslam::io {
 
 inline constexpr double kDefaultFrameRate = 30;
-
-// Names such as 1341836537.655662.png are stamps in seconds; plain numbers are counters, not stamps.
-[[nodiscard]] inline bool is_stamp_name(const std::filesystem::path& image) {
-  const std::string stem = image.stem().string();
-  const std::size_t point = stem.find('.');
-  return point != std::string::npos && all_digits(stem.substr(0, point)) &&
-         all_digits(stem.substr(point + 1));
-}
 
 // Stamps come from the names when each is one, else from the position and the frame rate.
 [[nodiscard]] inline Dataset frames_from_images(const std::filesystem::path& root,
@@ -31,12 +24,13 @@ inline constexpr double kDefaultFrameRate = 30;
   Dataset dataset;
   dataset.layout = Layout::kImages;
   dataset.root = root;
-  const bool stamped = std::all_of(images.begin(), images.end(), is_stamp_name);
+  const std::optional<NameStamps> named = stamps_of_names(images);
+  if (named && !named->unit.is_seconds())
+    dataset.warnings.push_back(root.string() + ": names are " + unit_note(named->unit));
   for (std::size_t i = 0; i < images.size(); ++i) {
     FrameEntry frame;
     frame.image = images[i].string();
-    frame.stamp = stamped ? parse_number<double>(images[i].stem().string()).value_or(0)
-                          : static_cast<double>(i) / frame_rate;
+    frame.stamp = named ? named->seconds[i] : static_cast<double>(i) / frame_rate;
     dataset.frames.push_back(std::move(frame));
   }
   drop_bad_frames(dataset, root);

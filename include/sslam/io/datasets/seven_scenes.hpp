@@ -4,8 +4,6 @@
 // a second.
 #pragma once
 
-#include <Eigen/LU>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,7 +12,9 @@
 
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/files/files.hpp"
+#include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/io/trajectories/pose_row.hpp"
 
 namespace sslam::io {
 
@@ -42,31 +42,23 @@ inline constexpr double kSevenScenesFrameRate = 30;
   return !list_files(root, is_seven_scenes_colour).empty();
 }
 
-// Nothing, with the reason in `why`, when the file does not hold a rigid motion.
+// Nothing when the file does not hold a rigid motion, with the reason in `why`: empty where the matrix means
+// that there is no pose.
 [[nodiscard]] inline std::optional<SE3<double>> read_pose_matrix(const std::filesystem::path& path,
                                                                  std::string& why) {
   std::vector<double> v;
-  const std::string text = read_text(path);
-  for (const TextRow& row : split_rows(text)) {
-    for (const std::string_view cell : row.cells) {
-      const auto number = parse_number<double>(cell);
-      if (number && std::isfinite(*number)) v.push_back(*number);
-    }
-  }
+  const std::string text = read_plain_text(path);
+  for (const TextRow& row : split_rows(text))
+    for (const std::string_view cell : row.cells)
+      if (const auto number = parse_cell(cell)) v.push_back(*number);
+  std::optional<SE3<double>> pose;
+  why.clear();
   if (v.size() != 16) {
-    why = path.filename().string() + ": expected a 4x4 matrix of finite numbers, found " +
-          std::to_string(v.size());
-    return std::nullopt;
+    why = "expected a 4x4 matrix, found " + std::to_string(v.size()) + " numbers";
+  } else if (!means_no_pose(v)) {
+    pose = pose_of_matrix(v, why);
   }
-  const Mat3<double> rotation{{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}};
-  const double deviation = (rotation * rotation.transpose() - Mat3<double>::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation < 0.05) || rotation.determinant() < 0) {
-    why = path.filename().string() + ": its upper left 3x3 part is not a rotation";
-    return std::nullopt;
-  }
-  SE3<double> pose;
-  pose.rotation = SO3<double>::from_matrix(rotation);
-  pose.translation = Vec3<double>(v[3], v[7], v[11]);
+  if (!why.empty()) why = path.filename().string() + ": " + why;
   return pose;
 }
 
@@ -75,6 +67,7 @@ inline constexpr double kSevenScenesFrameRate = 30;
   dataset.layout = Layout::kSevenScenes;
   dataset.root = root;
   BadEntries bad_poses(root);
+  std::size_t poses = 0, no_pose = 0;
   for (const std::filesystem::path& image : list_files(root, is_seven_scenes_colour)) {
     const std::string stem = seven_scenes_stem(image);
     FrameEntry frame;
@@ -85,10 +78,13 @@ inline constexpr double kSevenScenesFrameRate = 30;
       frame.depth = depth.string();
     }
     if (const auto pose = root / (stem + ".pose.txt"); std::filesystem::is_regular_file(pose, ignored)) {
+      ++poses;
       std::string why;
       if (const auto world_from_cam = read_pose_matrix(pose, why)) {
         frame.truth = static_cast<std::ptrdiff_t>(dataset.ground_truth.size());
         dataset.ground_truth.push_back({frame.stamp, *world_from_cam});
+      } else if (why.empty()) {
+        ++no_pose;
       } else {
         bad_poses.add(why);
       }
@@ -96,8 +92,14 @@ inline constexpr double kSevenScenesFrameRate = 30;
     dataset.frames.push_back(std::move(frame));
   }
   if (dataset.frames.empty()) throw Error(root.string() + ": holds no frame-NNNNNN.color.png");
-  bad_poses.settle(dataset.frames.size(), dataset.warnings);
   drop_bad_frames(dataset, root);
+  if (no_pose > 0) dataset.warnings.push_back(no_pose_note(root, no_pose, poses));
+  try {
+    bad_poses.settle(poses - no_pose, dataset.warnings);
+    if (poses > 0 && poses == no_pose) leave_truth_out(dataset, root.string() + ": none of its poses is one");
+  } catch (const Error& error) {
+    leave_truth_out(dataset, error.what());
+  }
   return dataset;
 }
 

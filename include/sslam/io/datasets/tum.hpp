@@ -1,50 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The TUM RGB-D layout (Sturm et al., IROS 2012): rgb.txt and depth.txt with rows of `stamp file`,
-// groundtruth.txt.
+// The TUM RGB-D layout (Sturm et al., IROS 2012): rgb.txt and depth.txt with rows of `stamp file`, or their
+// pairs in associations.txt alone; groundtruth.txt.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sslam/io/datasets/counts_frames.hpp"
 #include "sslam/io/datasets/dataset.hpp"
-#include "sslam/io/files/text.hpp"
+#include "sslam/io/datasets/file_list.hpp"
+#include "sslam/io/files/plain_text.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::io {
 
-struct StampedFile {
-  double stamp = 0;
-  std::string file;
-};
-
-// Rows of `stamp file`, file relative to root. Throws Error when nothing usable is in the list.
-[[nodiscard]] inline std::vector<StampedFile> read_file_list(const std::filesystem::path& list,
-                                                             const std::filesystem::path& root,
-                                                             Warnings& warnings) {
-  const std::string text = read_text(list);
-  const std::vector<TextRow> rows = split_rows(text);
-  if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");
-  BadEntries bad(list);
-  std::vector<StampedFile> files;
-  for (const TextRow& row : rows) {
-    const auto stamp = parse_number<double>(row.cells[0]);
-    if (row.cells.size() < 2 || !stamp || !std::isfinite(*stamp)) {
-      bad.add(row.line, "expected 'stamp file' with the stamp in seconds");
-      continue;
-    }
-    files.push_back({*stamp, (root / row.cells[1]).string()});
-  }
-  bad.settle(rows.size(), warnings);
-  return files;
-}
-
 // Pairs depth images with colour images by nearest stamp. Depth images that are not there cost their frames
 // the depth, not the run: one warning tells of all of them.
-inline void attach_depth(Dataset& dataset, const std::filesystem::path& list) {
-  std::vector<StampedFile> files = read_file_list(list, dataset.root, dataset.warnings);
+inline void attach_depth(Dataset& dataset, const std::filesystem::path& list,
+                         std::vector<StampedFile> files) {
   std::stable_sort(files.begin(), files.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   const std::vector<double> stamps = frame_stamps(dataset);
@@ -75,30 +52,59 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list) {
   return text.substr(0, end);
 }
 
+// The pairs that the TUM tools make of rgb.txt and depth.txt; empty: none. Those that count frames are
+// ICL-NUIM's.
+[[nodiscard]] inline std::filesystem::path find_associations(const std::filesystem::path& root) {
+  constexpr std::array kNames{"associations.txt", "association.txt", "associate.txt", "associated.txt"};
+  std::error_code ignored;
+  for (const char* name : kNames)
+    if (std::filesystem::is_regular_file(root / name, ignored) && !counts_frames(root / name))
+      return root / name;
+  return {};
+}
+
 [[nodiscard]] inline bool is_tum(const std::filesystem::path& root) {
   std::error_code ignored;
-  return std::filesystem::is_regular_file(root / "rgb.txt", ignored);
+  return std::filesystem::is_regular_file(root / "rgb.txt", ignored) || !find_associations(root).empty();
+}
+
+// Whether most names have a part such as depth/.
+[[nodiscard]] inline bool name_depth(const std::vector<StampedFile>& files) {
+  const auto count = std::count_if(files.begin(), files.end(), [](const StampedFile& file) {
+    const std::filesystem::path path = file.file;
+    return lower_case((path.parent_path().filename() / path.filename()).string()).find("depth") !=
+           std::string::npos;
+  });
+  return 2 * static_cast<std::size_t>(count) > files.size();
 }
 
 [[nodiscard]] inline Dataset read_tum(const std::filesystem::path& root) {
-  const std::filesystem::path list = root / "rgb.txt";
+  std::error_code ignored;
+  const bool own_list = std::filesystem::is_regular_file(root / "rgb.txt", ignored);
+  const std::filesystem::path list = own_list ? root / "rgb.txt" : find_associations(root);
   Dataset dataset;
   dataset.layout = Layout::kTum;
   dataset.root = root;
-  dataset.name_hint = leading_comments(read_text(list));
-  for (StampedFile& file : read_file_list(list, root, dataset.warnings)) {
+  dataset.name_hint = leading_comments(read_plain_text(list));
+  std::vector<StampedFile> partners;
+  std::vector<StampedFile> files =
+      read_file_list(list, root, dataset.warnings, own_list ? nullptr : &partners);
+  // Some tools write the depth image first.
+  if (name_depth(files) && !partners.empty() && !name_depth(partners)) std::swap(files, partners);
+  for (StampedFile& file : files) {
     FrameEntry frame;
     frame.stamp = file.stamp;
     frame.image = std::move(file.file);
     dataset.frames.push_back(std::move(frame));
   }
   drop_bad_frames(dataset, list);
-  std::error_code ignored;
-  if (std::filesystem::exists(root / "depth.txt", ignored)) attach_depth(dataset, root / "depth.txt");
-  const std::filesystem::path truth = root / "groundtruth.txt";
-  if (std::filesystem::exists(truth, ignored)) {
-    attach_ground_truth(dataset, read_trajectory(truth, dataset.warnings), truth);
+  const std::filesystem::path depth = root / "depth.txt";
+  if (std::filesystem::exists(depth, ignored)) {
+    attach_depth(dataset, depth, read_file_list(depth, root, dataset.warnings));
+  } else if (!partners.empty()) {
+    attach_depth(dataset, list, std::move(partners));
   }
+  attach_truth_file(dataset, root / "groundtruth.txt");
   return dataset;
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -26,6 +28,24 @@ enum class Alignment { kNone, kSe3, kSim3 };
       return "sim3";
   }
   return "";
+}
+
+// Root mean square distance from the middle.
+[[nodiscard]] inline double spread_of(std::span<const Vec3<double>> points) {
+  Vec3<double> mean = Vec3<double>::Zero();
+  for (const Vec3<double>& point : points) mean += point / static_cast<double>(points.size());
+  double sum = 0;
+  for (const Vec3<double>& point : points) sum += (point - mean).squaredNorm();
+  return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+// Whether what moves is less than numbers of this size can tell, or nothing beside what the other does.
+[[nodiscard]] inline bool stands_still(std::span<const Vec3<double>> points, double other_spread) {
+  constexpr double kRounding = 1e-8, kNothing = 1e-4;
+  double size = 0;
+  for (const Vec3<double>& point : points) size = std::max(size, point.norm());
+  const double spread = spread_of(points);
+  return spread <= kRounding * size || spread <= kNothing * other_spread;
 }
 
 // Least squares over x' = s R x + t: x in `from`, x' in `to`, in equal numbers. With points on one line, the
@@ -59,9 +79,12 @@ enum class Alignment { kNone, kSe3, kSim3 };
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign.z() = -1;
   to_from.rotation = SO3<double>::from_matrix(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose());
   if (alignment == Alignment::kSim3) {
-    if (!(variance > 0)) throw Error("alignment with scale needs motion: the estimate stands still");
+    // With one that stands still the scale is that of its noise, and may fit by chance.
+    if (stands_still(from, spread_of(to)))
+      throw Error("alignment with scale needs motion: the estimate stands still");
     to_from.scale = svd.singularValues().dot(sign) / variance;
-    if (!(to_from.scale > 0)) throw Error("alignment with scale needs motion: the ground truth stands still");
+    if (stands_still(to, spread_of(from)) || !(to_from.scale > 0))
+      throw Error("alignment with scale needs motion: the ground truth stands still");
   }
   to_from.translation = to_mean - to_from.scale * (to_from.rotation * from_mean);
   return to_from;

@@ -99,6 +99,11 @@ namespace sslam::io {
   return text.find_first_of("*?") != std::string_view::npos;
 }
 
+// What macOS leaves beside a file "x" on other disks: "._x", with the same extension and none of its content.
+[[nodiscard]] inline bool is_apple_double(const std::filesystem::path& name) {
+  return name.string().starts_with("._");
+}
+
 // Files in a folder (not below it) that `wanted` accepts, in natural order. Empty when there is no such
 // folder.
 template <class Predicate>
@@ -109,7 +114,8 @@ template <class Predicate>
   for (auto it = std::filesystem::directory_iterator(folder, error);
        !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
     std::error_code ignored;
-    if (it->is_regular_file(ignored) && wanted(it->path().filename())) files.push_back(it->path());
+    const std::filesystem::path name = it->path().filename();
+    if (it->is_regular_file(ignored) && !is_apple_double(name) && wanted(name)) files.push_back(it->path());
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return natural_less(a.filename().string(), b.filename().string());

@@ -29,35 +29,52 @@ namespace sslam::io {
   return text;
 }
 
-// Cells separated by blanks, tabs, commas or a carriage return, as the TUM tools split them.
+// Cells separated by blanks, tabs and commas, as the TUM tools split them, or by semicolons: a comma is then
+// left in its cell. In quotes, single or double, all of these are part of a cell.
 [[nodiscard]] inline std::vector<std::string_view> split_cells(std::string_view line) {
-  constexpr std::string_view kSeparators = " \t,\r";
+  const std::string_view separators = line.find(';') == std::string_view::npos ? " \t,\r" : " \t;\r";
   std::vector<std::string_view> cells;
-  for (std::size_t at = line.find_first_not_of(kSeparators); at != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(kSeparators, at), line.size());
-    cells.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(kSeparators, end);
+  for (std::size_t at = line.find_first_not_of(separators); at != std::string_view::npos;) {
+    const bool quoted = line[at] == '"' || line[at] == '\'';
+    const std::size_t close = quoted ? line.find(line[at], at + 1) : std::string_view::npos;
+    const bool closed = close != std::string_view::npos;
+    const std::size_t start = closed ? at + 1 : at;
+    const std::size_t end = closed ? close : std::min(line.find_first_of(separators, at), line.size());
+    cells.push_back(line.substr(start, end - start));
+    at = line.find_first_not_of(separators, closed ? end + 1 : end);
   }
   return cells;
 }
 
 struct TextRow {
-  int line = 0;  // counted from 1
+  int line = 0;           // counted from 1
+  std::string_view text;  // all of it
   std::vector<std::string_view> cells;
 };
 
-// Rows that are neither empty nor comments (#). They point into text.
+// Rows that are neither empty nor comments (# or %). They point into text.
 [[nodiscard]] inline std::vector<TextRow> split_rows(std::string_view text) {
   std::vector<TextRow> rows;
   int line = 0;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     ++line;
-    std::vector<std::string_view> cells = split_cells(text.substr(at, end - at));
-    if (!cells.empty() && cells.front().front() != '#') rows.push_back({line, std::move(cells)});
+    const std::string_view row = text.substr(at, end - at);
+    std::vector<std::string_view> cells = split_cells(row);
+    const bool comment = !cells.empty() && (cells.front().starts_with('#') || cells.front().starts_with('%'));
+    if (!cells.empty() && !comment) rows.push_back({line, row, std::move(cells)});
     at = end + 1;
   }
   return rows;
+}
+
+// Whether a first row names the columns: no digit in it, and not such as "nan" in its first cell.
+[[nodiscard]] inline bool is_header(const TextRow& row) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::string_view first = row.cells.front();
+  const bool number =
+      first.find("nan") != std::string_view::npos || first.find("inf") != std::string_view::npos;
+  return !number && row.text.find_first_of(kDigits) == std::string_view::npos;
 }
 
 // The number that the whole of text spells; "nan" and "inf" are numbers here, the caller decides about them.

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists of `stamp file`, however people's programs write them: names with blanks, in quotes, with
+// backslashes, with more columns behind them, or of another computer's folders.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sslam/io/files/bad_entries.hpp"
+#include "sslam/io/files/files.hpp"
+#include "sslam/io/files/plain_text.hpp"
+#include "sslam/io/files/stamp_unit.hpp"
+#include "sslam/io/files/text.hpp"
+
+namespace sslam::io {
+
+struct StampedFile {
+  double stamp = 0;
+  std::string file;
+};
+
+namespace file_list_detail {
+
+[[nodiscard]] inline bool is_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+// The file that a list below `root` names. Of a folder that is not on this computer, the end of the name
+// counts.
+[[nodiscard]] inline std::string find_listed(const std::filesystem::path& root, std::string name) {
+  if (is_file(root / name)) return (root / name).string();
+  for (char& c : name)
+    if (c == '\\') c = '/';
+  const bool absolute = name.starts_with('/') || (name.size() > 1 && name[1] == ':');
+  for (std::size_t at = absolute ? name.find('/') : 0; at != std::string::npos && at < name.size();) {
+    const std::size_t start = name[at] == '/' ? at + 1 : at;
+    if (is_file(root / name.substr(start))) return (root / name.substr(start)).string();
+    at = name.find('/', start);
+  }
+  return (root / name).string();
+}
+
+// Takes cells from the front of a row.
+class RowReader {
+ public:
+  explicit RowReader(std::string_view row)
+      : left_(row), separators_(row.find(';') == std::string_view::npos ? " \t," : " \t;") {
+    skip();
+  }
+
+  [[nodiscard]] bool done() const noexcept { return left_.empty(); }
+
+  [[nodiscard]] std::string_view take_cell() { return take(cell_end(0)); }
+
+  // A blank or a comma may be part of a name, which ends with the extension of an image. Where several do,
+  // the first that is there counts.
+  [[nodiscard]] std::string take_file(const std::filesystem::path& root) {
+    if (in_quotes()) return find_listed(root, std::string(take_cell()));
+    std::optional<std::size_t> first;
+    for (std::size_t end = cell_end(0);;) {
+      if (const std::string name(left_.substr(0, end)); is_image_name(name)) {
+        const std::string file = find_listed(root, name);
+        if (is_file(file)) return take(end), file;
+        if (!first) first = end;
+      }
+      const std::size_t next = left_.find_first_not_of(separators_, end);
+      if (next == std::string_view::npos) break;
+      end = cell_end(next);
+    }
+    return find_listed(root, std::string(take(first.value_or(cell_end(0)))));
+  }
+
+ private:
+  [[nodiscard]] bool in_quotes() const noexcept {
+    return !left_.empty() && (left_.front() == '"' || left_.front() == '\'') &&
+           left_.find(left_.front(), 1) != std::string_view::npos;
+  }
+  [[nodiscard]] std::size_t cell_end(std::size_t start) const noexcept {
+    if (start == 0 && in_quotes()) return left_.find(left_.front(), 1) + 1;
+    return std::min(left_.find_first_of(separators_, start), left_.size());
+  }
+  std::string_view take(std::size_t end) {
+    const bool quoted = in_quotes() && end > 1;
+    const std::string_view cell = quoted ? left_.substr(1, end - 2) : left_.substr(0, end);
+    left_.remove_prefix(end);
+    skip();
+    return cell;
+  }
+  void skip() { left_.remove_prefix(std::min(left_.find_first_not_of(separators_), left_.size())); }
+
+  std::string_view left_, separators_;
+};
+
+[[nodiscard]] inline std::optional<StampedFile> take_stamped_file(RowReader& row,
+                                                                  const std::filesystem::path& root) {
+  if (row.done()) return std::nullopt;
+  const auto stamp = parse_number<double>(row.take_cell());
+  if (!stamp || !std::isfinite(*stamp) || row.done()) return std::nullopt;
+  return StampedFile{*stamp, row.take_file(root)};
+}
+
+}  // namespace file_list_detail
+
+// Turns stamps into seconds, and says so where they were not.
+template <class Entry>
+void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesystem::path& source,
+                Warnings& warnings) {
+  std::vector<double> stamps;
+  stamps.reserve(entries.size());
+  for (const Entry& entry : entries) stamps.push_back(entry.stamp);
+  const StampUnit unit = stamp_unit_of(stamps, whose);
+  if (unit.is_seconds()) return;
+  for (Entry& entry : entries) entry.stamp /= unit.per_second;
+  warnings.push_back(source.string() + ": " + unit_note(unit));
+}
+
+// Rows of `stamp file`, file relative to root, stamps in seconds. `second`: of rows of `stamp file stamp
+// file`, what follows; null: not wanted. Throws Error when nothing usable is in the list.
+[[nodiscard]] inline std::vector<StampedFile> read_file_list(const std::filesystem::path& list,
+                                                             const std::filesystem::path& root,
+                                                             Warnings& warnings,
+                                                             std::vector<StampedFile>* second = nullptr) {
+  const std::string text = read_plain_text(list);
+  std::vector<TextRow> rows = split_rows(text);
+  if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
+  if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");
+  BadEntries bad(list);
+  std::vector<StampedFile> files;
+  for (const TextRow& row : rows) {
+    file_list_detail::RowReader reader(row.text);
+    auto file = file_list_detail::take_stamped_file(reader, root);
+    if (!file) {
+      bad.add(row.line, "expected 'stamp file' with the stamp as a number");
+      continue;
+    }
+    files.push_back(std::move(*file));
+    if (second == nullptr) continue;
+    if (auto other = file_list_detail::take_stamped_file(reader, root)) second->push_back(std::move(*other));
+  }
+  bad.settle(rows.size(), warnings);
+  to_seconds(files, StampsOf::kImages, list, warnings);
+  Warnings told;  // once is enough
+  if (second != nullptr) to_seconds(*second, StampsOf::kImages, list, told);
+  return files;
+}
+
+}  // namespace sslam::io

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stamps that are the names of images: seconds with a point (1341836537.655662), whole numbers of a finer
+// unit (1341836537655662000), or seconds and the rest (1341836537_655662000). Other numbers are counters.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslam/io/files/files.hpp"
+#include "sslam/io/files/stamp_unit.hpp"
+#include "sslam/io/files/text.hpp"
+
+namespace sslam::io {
+
+struct NameStamps {
+  std::vector<double> seconds;
+  StampUnit unit;  // of the names
+};
+
+namespace name_stamps_detail {
+
+// 1998 to 2065.
+[[nodiscard]] inline bool is_epoch(double seconds) noexcept {
+  return seconds > 9e8 && seconds < 3e9;
+}
+
+struct SplitName {
+  std::string whole, part;  // before and after the separator
+  char separator = 0;       // 0: none
+};
+
+// Nothing for a name that is not digits, or digits on both sides of one separator.
+[[nodiscard]] inline std::optional<SplitName> split_name(const std::string& stem) {
+  const std::size_t at = stem.find_first_not_of("0123456789");
+  SplitName name{stem.substr(0, at), {}, 0};
+  if (at != std::string::npos) {
+    name.separator = stem[at];
+    name.part = stem.substr(at + 1);
+    const bool known = name.separator == '.' || name.separator == '_' || name.separator == '-';
+    if (!known || !all_digits(name.part)) return std::nullopt;
+  }
+  if (name.whole.empty()) return std::nullopt;
+  return name;
+}
+
+// Whole numbers. A date such as 20230815093012 is none of a clock's.
+[[nodiscard]] inline std::optional<NameStamps> stamps_of_numbers(std::vector<double> stamps) {
+  const StampUnit unit = stamp_unit_of(stamps, StampsOf::kOther);
+  for (double& stamp : stamps) stamp /= unit.per_second;
+  const double last = *std::max_element(stamps.begin(), stamps.end());
+  constexpr double kLongestRun = 1e6;  // days, for a clock that begins with the recording
+  const bool sensible = is_epoch(last) || (!unit.is_seconds() && last < kLongestRun);
+  return sensible ? std::optional(NameStamps{std::move(stamps), unit}) : std::nullopt;
+}
+
+// Seconds and, as another number, what is left of them. Without leading zeros its unit is that of the
+// longest.
+[[nodiscard]] inline NameStamps stamps_of_pairs(const std::vector<SplitName>& names) {
+  std::size_t longest = 0;
+  bool padded = true;
+  for (const SplitName& name : names) {
+    longest = std::max(longest, name.part.size());
+    padded = padded && name.part.size() == names.front().part.size();
+  }
+  const std::size_t digits = padded ? longest : (longest > 6 ? 9 : (longest > 3 ? 6 : 3));
+  NameStamps result;
+  for (const SplitName& name : names) {
+    const std::string zeros(digits > name.part.size() ? digits - name.part.size() : 0, '0');
+    result.seconds.push_back(parse_number<double>(name.whole + "." + zeros + name.part).value_or(0));
+  }
+  return result;
+}
+
+}  // namespace name_stamps_detail
+
+// Nothing where the names are no stamps.
+[[nodiscard]] inline std::optional<NameStamps> stamps_of_names(
+    const std::vector<std::filesystem::path>& images) {
+  using namespace name_stamps_detail;
+  if (images.empty()) return std::nullopt;
+  std::vector<SplitName> names;
+  for (const std::filesystem::path& image : images) {
+    auto name = split_name(image.stem().string());
+    if (!name || (!names.empty() && name->separator != names.front().separator)) return std::nullopt;
+    names.push_back(std::move(*name));
+  }
+  const char separator = names.front().separator;
+  std::vector<double> wholes;
+  for (const SplitName& name : names) {
+    wholes.push_back(parse_number<double>(name.whole).value_or(0));
+    // Two numbers that are no seconds of a clock may be anything, such as a run and a counter.
+    if (separator != 0 && separator != '.' && !is_epoch(wholes.back())) return std::nullopt;
+  }
+  if (separator == 0) return stamps_of_numbers(std::move(wholes));
+  if (separator != '.') return stamps_of_pairs(names);
+  NameStamps result;
+  for (const SplitName& name : names)
+    result.seconds.push_back(parse_number<double>(name.whole + "." + name.part).value_or(0));
+  result.unit = stamp_unit_of(result.seconds, StampsOf::kOther);
+  for (double& stamp : result.seconds) stamp /= result.unit.per_second;
+  return result;
+}
+
+}  // namespace sslam::io

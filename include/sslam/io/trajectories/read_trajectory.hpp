@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Trajectories as programs write them, told by their rows: TUM, EuRoC, KITTI with its times, 4x4 matrices.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sslam/io/files/bad_entries.hpp"
+#include "sslam/io/files/files.hpp"
+#include "sslam/io/files/plain_text.hpp"
+#include "sslam/io/files/stamp_unit.hpp"
+#include "sslam/io/files/text.hpp"
+#include "sslam/io/trajectories/pose_row.hpp"
+#include "sslam/io/trajectories/trajectory.hpp"
+
+namespace sslam::io {
+
+struct PoseFile {
+  Trajectory trajectory;    // by increasing stamp, in seconds
+  bool counted = false;     // its rows have no stamps and no times: the stamps are their numbers, from 0
+  std::size_t no_pose = 0;  // rows that mean "no pose here", left out
+};
+
+namespace trajectory_detail {
+
+// Whether w stands before x where a head of the file names the quaternion's parts; nothing where none does.
+[[nodiscard]] inline std::optional<bool> names_w_first(std::string_view head) {
+  const std::string names = lower_case(std::string(head));
+  for (const auto& [w, x] :
+       {std::pair{"qw", "qx"}, {"q_w", "q_x"}, {"q_rs_w", "q_rs_x"}, {"tion.w", "tion.x"}})
+    if (const auto at = names.find(w); at != std::string::npos) return at < names.find(x);
+  return std::nullopt;
+}
+
+// A matrix over four rows becomes one row.
+inline void join_matrices(std::vector<TextRow>& rows) {
+  const auto four = [](const TextRow& row) { return row.cells.size() == 4; };
+  if (rows.size() % 4 != 0 || !std::all_of(rows.begin(), rows.end(), four)) return;
+  for (std::size_t i = 0; i < rows.size() / 4; ++i) {
+    TextRow joined = rows[4 * i];
+    for (std::size_t j = 1; j < 4; ++j)
+      joined.cells.insert(joined.cells.end(), rows[4 * i + j].cells.begin(), rows[4 * i + j].cells.end());
+    rows[i] = std::move(joined);
+  }
+  rows.resize(rows.size() / 4);
+}
+
+// The number of cells that most rows have, among those of a layout if there are any.
+[[nodiscard]] inline std::size_t usual_width(const std::vector<TextRow>& rows) {
+  constexpr std::array<std::size_t, 5> kKnown{8, 12, 13, 16, 17};
+  std::size_t width = rows.front().cells.size(), most = 0;
+  for (const std::size_t known : kKnown) {
+    const auto count = static_cast<std::size_t>(std::count_if(
+        rows.begin(), rows.end(), [known](const TextRow& row) { return row.cells.size() == known; }));
+    if (count > most) {
+      most = count;
+      width = known;
+    }
+  }
+  return width;
+}
+
+// The tables of EuRoC count nanoseconds and separate by commas.
+[[nodiscard]] inline bool looks_like_euroc(const TextRow& row) {
+  constexpr double kNanosecondsToday = 1e17;
+  return row.text.find(',') != std::string_view::npos &&
+         parse_number<double>(row.cells.front()).value_or(0) > kNanosecondsToday;
+}
+
+[[nodiscard]] inline bool ends_as_matrix(const TextRow& row) {
+  const auto& c = row.cells;
+  return c.size() == 17 && parse_number<double>(c[13]) == 0.0 && parse_number<double>(c[14]) == 0.0 &&
+         parse_number<double>(c[15]) == 0.0 && parse_number<double>(c[16]) == 1.0;
+}
+
+// `head`: what stands above the first row. Throws Error for rows of no known layout.
+[[nodiscard]] inline RowLayout layout_of(const std::vector<TextRow>& rows, std::size_t width,
+                                         std::string_view head, const std::filesystem::path& path,
+                                         Warnings& warnings) {
+  if (width == 12 || width == 16) return RowLayout::kMatrix;
+  if (width == 13 || std::any_of(rows.begin(), rows.end(), ends_as_matrix)) return RowLayout::kStampedMatrix;
+  const std::optional<bool> named = names_w_first(head);
+  if (width != 8 && width != 17)
+    throw Error(path.string() + ": line " + std::to_string(rows.front().line) + ": has " +
+                std::to_string(width) + " columns; expected rows of " + std::string(kPoseRows));
+  if (named) return *named ? RowLayout::kWFirst : RowLayout::kTum;
+  if (width == 8 && !looks_like_euroc(rows.front())) return RowLayout::kTum;
+  warnings.push_back(path.string() +
+                     ": nothing names its columns; read as EuRoC's, the quaternion's w first");
+  return RowLayout::kWFirst;
+}
+
+// Where the times of a KITTI file may lie; empty: nowhere.
+[[nodiscard]] inline std::filesystem::path find_times(const std::filesystem::path& poses) {
+  const std::filesystem::path folder = poses.parent_path();
+  const std::string stem = poses.stem().string();
+  std::error_code ignored;
+  for (const std::filesystem::path& file :
+       {folder / (stem + "_times.txt"), folder / "times.txt", folder / "../sequences" / stem / "times.txt"})
+    if (file != poses && std::filesystem::is_regular_file(file, ignored)) return file;
+  return {};
+}
+
+}  // namespace trajectory_detail
+
+// The first column of a list of times, in its own unit.
+[[nodiscard]] inline std::vector<double> read_times(const std::filesystem::path& file) {
+  const std::string text = read_plain_text(file);
+  std::vector<double> times;
+  for (const TextRow& row : split_rows(text)) {
+    const auto time = parse_number<double>(row.cells.front());
+    if (!time || !std::isfinite(*time))
+      throw Error(file.string() + ": line " + std::to_string(row.line) + ": expected a time, found '" +
+                  std::string(row.cells.front()) + "'");
+    times.push_back(*time);
+  }
+  return times;
+}
+
+// Throws Error when the file cannot be read or holds no trajectory; adds to warnings what was skipped or
+// changed. `times`: of a file without stamps; empty: looked for beside it.
+[[nodiscard]] inline PoseFile read_pose_file(const std::filesystem::path& path, Warnings& warnings,
+                                             std::filesystem::path times = {}) {
+  const std::string text = read_plain_text(path);
+  std::vector<TextRow> rows = split_rows(text);
+  if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
+  if (rows.empty())
+    throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
+  const std::string_view head(text.data(), static_cast<std::size_t>(rows.front().text.data() - text.data()));
+  trajectory_detail::join_matrices(rows);
+  const std::size_t width = trajectory_detail::usual_width(rows);
+  const RowLayout layout = trajectory_detail::layout_of(rows, width, head, path, warnings);
+  PoseFile result;
+  std::vector<double> clock;
+  if (!has_stamp(layout)) {
+    if (times.empty()) times = trajectory_detail::find_times(path);
+    if (!times.empty()) clock = read_times(times);
+    result.counted = clock.empty();
+    if (!result.counted && clock.size() != rows.size())
+      throw Error(times.string() + ": has " + std::to_string(clock.size()) + " times for the " +
+                  std::to_string(rows.size()) + " poses of " + path.string() + "; expected one a pose");
+  }
+  BadEntries bad(path);
+  std::string why;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = parse_pose_row(rows[i], layout, width, why);
+    if (!row) {
+      bad.add(rows[i].line, why);
+    } else if (row->no_pose) {
+      ++result.no_pose;
+    } else {
+      const double place = clock.empty() ? static_cast<double>(i) : clock[i];
+      result.trajectory.push_back({row->stamp.value_or(place), *row->pose});
+    }
+  }
+  const std::size_t total = rows.size();
+  if (result.no_pose == total)
+    throw Error(path.string() + ": holds no pose: all " + std::to_string(total) +
+                " rows say that there is none");
+  bad.settle(total - result.no_pose, warnings);
+  if (result.no_pose > 0) warnings.push_back(no_pose_note(path, result.no_pose, total));
+  if (const StampUnit unit = stamp_unit_of(stamps_of(result.trajectory), StampsOf::kOther);
+      !unit.is_seconds() && !result.counted) {
+    for (StampedPose& pose : result.trajectory) pose.stamp /= unit.per_second;
+    warnings.push_back(path.string() + ": " + unit_note(unit));
+  }
+  order_by_stamp(result.trajectory, path, warnings);
+  return result;
+}
+
+// Poses by increasing stamp, as read_pose_file; stamps there must be.
+[[nodiscard]] inline Trajectory read_trajectory(const std::filesystem::path& path, Warnings& warnings) {
+  PoseFile file = read_pose_file(path, warnings);
+  if (file.counted)
+    throw Error(path.string() +
+                ": its poses have no stamps; put their times into times.txt beside it, one a row");
+  return std::move(file.trajectory);
+}
+
+}  // namespace sslam::io
