@@ -112,11 +112,9 @@ TEST_CASE("A map file whose bytes are changed is refused or taken, and nothing e
       bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] = static_cast<char>(random.below(256));
     if (round % 3 == 0) bytes.resize(random.below(static_cast<std::uint32_t>(bytes.size())));
     write_payload(path, bytes);
-    try {
-      REQUIRE_FALSE(io::load_map(path).empty());
-    } catch (const Error& error) {
-      REQUIRE(is_one_line(error.what()));
-    }
+    std::size_t keyframes = 0;
+    const std::string why = error_of([&] { keyframes = io::load_map(path).keyframes.size(); });
+    REQUIRE((keyframes > 0 || is_one_line(why)));
   }
 }
 
