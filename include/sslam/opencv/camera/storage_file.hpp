@@ -46,6 +46,7 @@ namespace storage_detail {
   std::string text(kLongest + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  if (text.empty()) throw Error(path.string() + ": is empty");
   if (text.size() > kLongest)
     throw Error(path.string() + ": is longer than 1 MB; expected a few lines of settings");
   if (!storage_detail::is_flat(text))
