@@ -7,8 +7,10 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/results/folder_lock.hpp"
 #include "cli/results/keyframe_images.hpp"
 #include "cli/results/map_ply.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/maps/colmap_writer.hpp"
@@ -33,7 +35,6 @@ struct ExportSettings {
 }
 
 std::string export_trajectory(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {
-  if (run.trajectory.empty()) refuse(settings, run, "trajectory.txt");
   const std::string poses = std::to_string(run.trajectory.size()) + " poses";
   if (settings.format == "tum") {
     io::write_trajectory(out / "trajectory.txt", run.trajectory);
@@ -65,7 +66,6 @@ std::string export_colmap(const RunFolder& run, const fs::path& out) {
 }
 
 std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {
-  if (run.map.empty()) refuse(settings, run, "map.sslam");
   if (settings.format == "colmap") return export_colmap(run, out);
   write_map_ply(out / "map.ply", run.map);
   return "map.ply";
@@ -76,11 +76,15 @@ void run_export(const ExportSettings& settings) {
   const fs::path out =
       settings.out.empty() ? fs::path(settings.run) / settings.format : fs::path(settings.out);
   const bool map = settings.format == "colmap" || settings.format == "ply";
-  if (!(map ? run.map.empty() : run.trajectory.empty())) {
-    print_warnings(run.problems);
-    io::prepare_output_folder(out);
-  }
-  const std::string files = map ? export_map(settings, run, out) : export_trajectory(settings, run, out);
+  if (map ? run.map.empty() : run.trajectory.empty())
+    refuse(settings, run, map ? "map.sslam" : "trajectory.txt");
+  print_warnings(run.problems);
+  io::prepare_output_folder(out);
+  const FolderLock lock = FolderLock::demand(out);
+  ResultSet results(out);
+  const std::string files =
+      map ? export_map(settings, run, results.stage()) : export_trajectory(settings, run, results.stage());
+  results.commit();
   std::printf("written to       %s: %s\n", out.c_str(), files.c_str());
 }
 

@@ -4,10 +4,13 @@
 #include "sslam/system/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <iostream>
+#include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 
@@ -17,6 +20,7 @@
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/man_page.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/version.hpp"
 
 namespace sslam::cli {
@@ -81,6 +85,15 @@ int parse_and_run(int argc, char** argv) {
   return static_cast<int>(ExitCode::kOk);
 }
 
+// Throws Error when what was printed has not got to where it should, a full disk, say.
+void demand_printed() {
+  errno = 0;
+  std::cout.flush();
+  const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  if (!printed)
+    throw Error(std::string("standard output: cannot write: ") + std::strerror(errno != 0 ? errno : EIO));
+}
+
 }  // namespace
 }  // namespace sslam::cli
 
@@ -92,9 +105,13 @@ int sslam::run_program(int argc, char** argv) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
     end_with_parent();
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    if (code == static_cast<int>(ExitCode::kOk)) demand_printed();
+    return code;
   } catch (const Stop& stop) {
     return static_cast<int>(stop.code);
+  } catch (const cv::Exception& error) {  // its what() has several lines, and places in OpenCV's sources
+    print_error("OpenCV could not do what it was asked to: " + error.err + " (in " + error.func + ")");
   } catch (const std::exception& error) {
     print_error(error.what());
   }

@@ -47,8 +47,9 @@ std::string report_html(const nlohmann::ordered_json& data, const std::vector<st
   return html += page.after_views;
 }
 
-std::string report_of(const std::filesystem::path& folder) {
+std::string report_of(const std::filesystem::path& folder, const std::string& name) {
   RunFolder run = read_run_folder(folder);
+  if (!name.empty()) run.name = name;
   const nlohmann::ordered_json data = report_data(run);
   print_warnings(run.problems);
   const std::vector<std::string> views = std::move(run.views);

@@ -17,9 +17,9 @@ inline constexpr std::size_t kMaxViews = 1000;  // that a run keeps for its repo
 [[nodiscard]] std::string report_html(const nlohmann::ordered_json& data,
                                       const std::vector<std::string>& views);
 
-// The page of a run, from its folder; warns about files that cannot be used. Throws Error when there is
-// no run.
-[[nodiscard]] std::string report_of(const std::filesystem::path& folder);
+// The page of a run, from its folder, under that folder's name or another; warns about files that cannot be
+// used. Throws Error when there is no run.
+[[nodiscard]] std::string report_of(const std::filesystem::path& folder, const std::string& name = "");
 
 // Into the run's folder. Throws Error when it cannot be written.
 void write_report(const std::filesystem::path& folder, const std::string& page);

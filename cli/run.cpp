@@ -11,18 +11,21 @@
 #include "cli/commands.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
+#include "cli/results/folder_lock.hpp"
+#include "cli/results/result_set.hpp"
+#include "cli/results/run_folder.hpp"
 #include "cli/results/run_report.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/run/track_sequence.hpp"
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
+#include "cli/shell/interrupt.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "cli/video/overlay_video.hpp"
 #include "cli/view/live_view.hpp"
 #include "cli/view/view_options.hpp"
-#include "sslam/io/maps/map_file.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -55,7 +58,7 @@ void run(RunSettings settings) {
   wanted.preset = settings.preset;
   wanted.parameters = set_parameters(preset, settings.set);
   Map<double> known;
-  if (!settings.map.empty()) known = io::load_map(settings.map);
+  if (!settings.map.empty()) known = load_run_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
@@ -66,6 +69,7 @@ void run(RunSettings settings) {
   wanted.live = settings.live;
   wanted.keep_pictures = settings.report || settings.view || !settings.video.empty();
   io::prepare_output_folder(settings.out);
+  const FolderLock lock = FolderLock::demand(settings.out);
 
   System system(std::move(wanted));
   const std::size_t frames = dataset.frames.size(), known_keyframes = known.keyframes.size();
@@ -80,21 +84,25 @@ void run(RunSettings settings) {
   Progress progress(frames, settings.verbosity, "run");
   ProgressObserver progress_observer(progress);
   system.add_observer(progress_observer);
+  const Interrupt interrupt;  // until all is written
   FrameStream stream(dataset, system, settings.live ? dataset.seconds_per_stamp : 0);
   track_sequence(system, stream, recorder, known_keyframes);
   progress.finish();
 
   RunOutcome& outcome = recorder.outcome;
   print_warnings(outcome.warnings);
-  write_run(context, outcome);
+  ResultSet results(settings.out);
+  write_run(context, outcome, results.stage());
   const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();
   const std::string last_reason = last_reason_of(outcome);
   outcome = {};  // the report is made from the files, and needs the room
   std::string page;
-  if (settings.report || live) page = report_of(settings.out);
-  if (settings.report) write_report(settings.out, page);
+  if (settings.report || live) page = report_of(results.stage(), folder_name(settings.out));
+  if (settings.report) write_report(results.stage(), page);
+  results.commit(kOptionalFiles);
+  std::printf("written to       %s\n", settings.out.c_str());
   if (video) video->commit();
-  if (interrupted) {
+  if (interrupted || Interrupt::asked()) {
     print_warning("interrupted; what had been computed was written");
     throw Stop{ExitCode::kInterrupted};
   }

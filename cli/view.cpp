@@ -15,7 +15,6 @@
 #include "cli/shell/messages.hpp"
 #include "cli/view/view_options.hpp"
 #include "cli/view/view_server.hpp"
-#include "sslam/io/maps/map_file.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -26,7 +25,7 @@ namespace fs = std::filesystem;
 std::string map_page(const fs::path& file) {
   RunFolder run;
   run.name = file.filename().string();
-  run.map = io::load_map(file);
+  run.map = load_run_map(file);
   run.keyframes = keyframe_poses(run.map);
   run.metrics = {{"keyframes", run.keyframes.size()},
                  {"points", count_alive(run.map.points)},

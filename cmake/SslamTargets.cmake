@@ -31,6 +31,10 @@ function(sslam_own_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${SSLAM_WERROR}>:-Werror>)
   # g++ 12 sees overlapping copies in harmless string concatenations (GCC bug 105651).
   target_compile_options(${target} PRIVATE $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")  # tables of addresses that nobody can write to once the program runs
+    target_link_options(${target} PRIVATE $<$<PLATFORM_ID:Linux>:-Wl,-z,relro,-z,now>)
+  endif()
   if(SSLAM_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${SSLAM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${SSLAM_SANITIZE})

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/results/eval_report.hpp"
-#include "sslam/io/files/text.hpp"
+#include "cli/results/json_file.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -132,8 +132,8 @@ Plan read_plan(const fs::path& folder) {
     throw Error(folder.string() + ": holds no " + kPlanFile +
                 "; expected a folder that `sslam batch` has written to");
   try {
-    return plan_from(Json::parse(io::read_text(file)));
-  } catch (const Json::exception&) {
+    return plan_from(read_json_object(file));
+  } catch (const std::exception&) {
     throw Error(file.string() + ": is damaged; run the batch again, it keeps the runs that are done");
   }
 }

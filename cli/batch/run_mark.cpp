@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/results/eval_report.hpp"
+#include "cli/results/json_file.hpp"
+#include "cli/results/result_set.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/maps/checksum.hpp"
 #include "sslam/version.hpp"
@@ -24,8 +26,20 @@ constexpr std::array<const char*, 3> kEndNames{"tracked", "lost", "broken"};
 Json read_object(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return {};
-  Json json = Json::parse(io::read_text(file), nullptr, false);
-  return json.is_object() ? json : Json();
+  try {
+    return read_json_object(file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// Whether the files of a tracked run are there (somebody may have cleaned up since), and all of that run.
+bool is_whole(const fs::path& run_folder) {
+  settle_results(run_folder);
+  std::error_code ignored;
+  return fs::is_regular_file(run_folder / "trajectory.txt", ignored) &&
+         fs::is_regular_file(run_folder / "metrics.json", ignored) &&
+         foreign_files(run_folder, read_object(run_folder / "metrics.json").value("files", Json())).empty();
 }
 
 // The error in the log, without what `sslam` puts in front of it; the last line where there is none.
@@ -83,11 +97,7 @@ std::optional<RunMark> read_mark(const fs::path& run_folder) {
   } catch (const Json::exception&) {
     return std::nullopt;
   }
-  // Somebody may have cleaned up since.
-  std::error_code ignored;
-  const bool there = fs::is_regular_file(run_folder / "trajectory.txt", ignored) &&
-                     fs::is_regular_file(run_folder / "metrics.json", ignored);
-  if (mark.end == RunEnd::kTracked && !there) return std::nullopt;
+  if (mark.end == RunEnd::kTracked && !is_whole(run_folder)) return std::nullopt;
   return mark;
 }
 

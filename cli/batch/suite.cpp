@@ -7,6 +7,7 @@
 
 #include "cli/batch/suite_methods.hpp"
 #include "cli/batch/suite_table.hpp"
+#include "cli/shell/toml_text.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/io/files/files.hpp"
 
@@ -20,7 +21,7 @@ class SuiteReader {
   explicit SuiteReader(const fs::path& file) : file_(file.string()), folder_(file.parent_path()) {}
 
   [[nodiscard]] Suite read() {
-    const std::string text = io::read_text(file_);
+    const std::string text = read_toml_text(file_);
     toml::table root;
     try {
       root = toml::parse(text, file_);

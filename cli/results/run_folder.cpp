@@ -3,7 +3,10 @@
 
 #include <exception>
 
+#include "cli/results/json_file.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/results/view_file.hpp"
+#include "cli/shell/messages.hpp"
 #include "sslam/io/maps/map_file.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
 
@@ -21,8 +24,10 @@ class Reader {
     if (!fs::is_directory(folder_, error))
       throw Error(folder_.string() + ": " + (fs::exists(folder_, error) ? "is no folder" : "no such folder") +
                   "; expected the one that `sslam run --out` has written to");
+    settle_results(folder_);
     run_.name = folder_name(folder_);
-    const bool has_metrics = take("metrics.json", [&](const fs::path& path) { read_metrics(path); });
+    const bool has_metrics =
+        take("metrics.json", [&](const fs::path& path) { run_.metrics = read_json_object(path); });
     const bool has_frames =
         take("frames.csv", [&](const fs::path& path) { run_.frames = io::read_csv(path, run_.problems); });
     if (!has_metrics && !has_frames)
@@ -33,13 +38,25 @@ class Reader {
       take_poses("trajectory.txt", run_.trajectory);
       take("map.sslam", [&](const fs::path& path) { run_.map = io::load_map(path); });
     }
-    if (fs::exists(folder_ / kTruthFile, error)) take_poses(kTruthFile, run_.truth);
-    if (fs::exists(folder_ / kViewFile, error))
+    if (has(kTruthFile)) take_poses(kTruthFile, run_.truth);
+    if (has(kViewFile))
       take(kViewFile, [&](const fs::path& path) { run_.views = read_views(path, run_.problems); });
+    for (std::string& line : foreign_files(folder_, checksums())) run_.problems.push_back(std::move(line));
     return std::move(run_);
   }
 
  private:
+  // Of the files of the run, as it wrote them; older programs did not note them.
+  [[nodiscard]] nlohmann::ordered_json checksums() const {
+    return run_.metrics.value("files", nlohmann::ordered_json());
+  }
+
+  // Whether an optional file is there, or should be.
+  [[nodiscard]] bool has(const char* name) const {
+    std::error_code ignored;
+    return fs::exists(folder_ / name, ignored) || checksums().contains(name);
+  }
+
   [[nodiscard]] bool counted_none(const char* name) const {
     const auto count = run_.metrics.find(name);
     return count != run_.metrics.end() && *count == 0;
@@ -67,12 +84,6 @@ class Reader {
     take(name, [&](const fs::path& path) { poses = io::read_trajectory(path, run_.problems); });
   }
 
-  void read_metrics(const fs::path& path) {
-    auto metrics = nlohmann::ordered_json::parse(io::read_text(path), nullptr, false);
-    if (!metrics.is_object()) throw Error(path.string() + ": is no JSON object; cut off?");
-    run_.metrics = std::move(metrics);
-  }
-
   fs::path folder_;
   RunFolder run_;
 };
@@ -82,6 +93,21 @@ class Reader {
 std::string folder_name(const fs::path& folder) {
   std::error_code ignored;
   return fs::weakly_canonical(folder, ignored).filename().string();
+}
+
+Map<double> load_run_map(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  settle_results(folder);
+  Map<double> map = io::load_map(file);
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / "metrics.json", ignored)) return map;
+  try {
+    const auto checksums = read_json_object(folder / "metrics.json").value("files", nlohmann::ordered_json());
+    const std::string name = file.filename().string();
+    if (checksums.contains(name)) print_warnings(foreign_files(folder, {{name, checksums[name]}}));
+  } catch (const Error&) {  // what stands beside a map need not be a run
+  }
+  return map;
 }
 
 RunFolder read_run_folder(const fs::path& folder) {

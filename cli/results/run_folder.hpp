@@ -2,6 +2,7 @@
 // The folder of a run, read back: whatever of its files is there and sound.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,6 +19,9 @@ inline constexpr const char* kTruthFile = "groundtruth.txt";
 inline constexpr const char* kViewFile = "views.bin";
 inline constexpr const char* kReportFile = "report.html";
 
+// Those that a run need not write.
+inline constexpr std::array kOptionalFiles{"map.sslam", kTruthFile, kViewFile, kReportFile};
+
 struct RunFolder {
   std::string name;  // of the folder, for people
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
@@ -30,6 +34,9 @@ struct RunFolder {
 
 // For people, however its path is written.
 [[nodiscard]] std::string folder_name(const std::filesystem::path& folder);
+
+// The map in `file`, and a warning where it is not that of the run beside it. Throws Error.
+[[nodiscard]] Map<double> load_run_map(const std::filesystem::path& file);
 
 // Throws Error when `folder` is none, or holds neither frames.csv nor metrics.json in a readable state.
 [[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);

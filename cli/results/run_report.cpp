@@ -12,6 +12,7 @@
 #include "cli/results/frame_table.hpp"
 #include "cli/results/map_figures.hpp"
 #include "cli/results/map_ply.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/results/truth_source.hpp"
 #include "cli/results/view_file.hpp"
@@ -158,7 +159,6 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
         "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
         outcome.apart.maps, outcome.apart.frames);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
-  std::printf("written to       %s\n", context.settings.out.c_str());
 }
 
 }  // namespace
@@ -183,15 +183,12 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
           {"live", s.live}};
 }
 
-void write_run(const RunContext& context, const RunOutcome& outcome) {
-  const fs::path out = context.settings.out;
+void write_run(const RunContext& context, const RunOutcome& outcome, const fs::path& out) {
   io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
   const io::Trajectory live = live_trajectory(outcome);
   io::write_trajectory(out / "trajectory_live.txt", live);
   io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
   write_map_ply(out / "map.ply", outcome.map);
-  // What an earlier run in this folder has left must not pass for this one's.
-  for (const char* name : {"map.sslam", kTruthFile, kViewFile, kReportFile}) fs::remove(out / name);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
   if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
       !truth.empty())
@@ -228,8 +225,9 @@ void write_run(const RunContext& context, const RunOutcome& outcome) {
   settings["parameters"] = parameters;
   metrics["settings"] = settings;
   metrics["versions"] = versions_json();
-  write_json((out / "metrics.json").string(), metrics);
   write_top_view_file(out / "topview.svg", context, outcome, evaluation);
+  metrics["files"] = checksums_of(out);
+  write_json((out / "metrics.json").string(), metrics);
   print_summary(context, outcome, evaluation);
 }
 

@@ -2,6 +2,7 @@
 // The files of a run: trajectories, map, per-frame table, metrics, top view.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -23,7 +24,8 @@ struct RunContext {
 // What was asked for, as metrics.json has it; the parameters come from the outcome.
 [[nodiscard]] nlohmann::ordered_json settings_json(const RunContext& context);
 
-// Writes all files into settings.out and prints the summary. Throws Error when a file cannot be written.
-void write_run(const RunContext& context, const RunOutcome& outcome);
+// Writes all files into a folder, metrics.json with the checksums of the others, and prints the summary.
+// Throws Error when a file cannot be written.
+void write_run(const RunContext& context, const RunOutcome& outcome, const std::filesystem::path& out);
 
 }  // namespace sslam::cli

@@ -10,7 +10,6 @@ namespace sslam::cli {
 void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, std::size_t known_keyframes) {
   RunOutcome& outcome = recorder.outcome;
   outcome.parameters = system.parameters().entries();
-  const Interrupt interrupt;
   WallTimer wall;
   wall.begin();
   ExtractedFrame input;

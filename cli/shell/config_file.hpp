@@ -4,9 +4,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/shell/toml_text.hpp"
 #include "sslam/core/error.hpp"
 
 namespace sslam::cli {
@@ -37,7 +39,8 @@ inline void apply_config_item(CLI::App& command, const std::string& file, const 
 inline void add_config_option(CLI::App& command) {
   const auto apply = [&command](const std::string& file) {
     try {
-      for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(file))
+      std::istringstream text(read_toml_text(file));
+      for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(text))
         detail::apply_config_item(command, file, item);
     } catch (const CLI::Error& error) {
       throw Error(file + ": " + error.what());

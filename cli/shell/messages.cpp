@@ -9,9 +9,19 @@ namespace {
 
 MessageForm message_form = MessageForm::kText;
 
+// A name of a file may hold line breaks and what moves a terminal's cursor; a message is one line.
+std::string in_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    line += control ? '?' : c;
+  }
+  return line;
+}
+
 void print_message(const char* kind, const std::string& text) {
   if (message_form == MessageForm::kJson) return print_json({{"event", kind}, {"text", text}});
-  std::fprintf(stderr, "sslam: %s: %s\n", kind, text.c_str());
+  std::fprintf(stderr, "sslam: %s: %s\n", kind, in_one_line(text).c_str());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "sslam/opencv/camera/lens_table.hpp"
 #include "sslam/opencv/camera/same_camera.hpp"
+#include "sslam/opencv/camera/storage_file.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
 #include "sslam/opencv/image_frontend.hpp"
 #include "sslam/opencv/image_input.hpp"

@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <type_traits>
 
 #include "io/errors.hpp"
+#include "sslam/core/random.hpp"
 #include "support/catch.hpp"
 #include "support/map_scene.hpp"
 #include "support/scratch_folder.hpp"
@@ -13,6 +18,8 @@ namespace {
 
 using namespace sslam;
 using namespace sslam::testing;
+using io::ByteWriter;
+using io::FieldRange;
 
 Map<double> room_map() {
   MapSceneOptions options;
@@ -30,7 +37,86 @@ Map<double> room_map() {
   return map;
 }
 
+// Writes a map but for one field, to which it gives a value that the field cannot have.
+struct SpoilingWriter {
+  static constexpr bool kReads = false;
+  ByteWriter bytes;
+  std::string spoiled;                    // name of the field
+  int bad = 0;                            // which of the bad values
+  std::map<std::string, int> bad_values;  // of each field that was met: how many there are
+
+  template <class T>
+  void operator()(const T& value, const FieldRange<T>& range) {
+    std::vector<T> values;
+    using Limits = std::numeric_limits<T>;
+    if constexpr (std::is_floating_point_v<T>)
+      values = {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(),
+                Limits::lowest()};
+    else
+      values = {Limits::max(), Limits::min()};
+    std::erase_if(values, [&](T v) { return !std::is_floating_point_v<T> && v == 0; });
+    const bool first = bad_values.emplace(range.name, static_cast<int>(values.size())).second;
+    bytes(first && spoiled == range.name ? values[static_cast<std::size_t>(bad)] : value);
+  }
+};
+
+void write_payload(const std::filesystem::path& path, const std::string& payload) {
+  ByteWriter head;
+  head(std::uint32_t{2});
+  head(std::uint64_t{payload.size()});
+  head(io::checksum(payload));
+  io::write_text(path, "SSLAMMAP" + head.bytes + payload);
+}
+
 }  // namespace
+
+TEST_CASE("Each field of a map file has a range, and is refused beyond it") {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "a.sslam";
+  Map<double> map = room_map();
+  map.keyframes[0].line_axes.assign(map.keyframes[0].frame.lines.size(), std::int8_t{2});
+  const auto write = [&](const std::string& spoiled, int bad) {
+    SpoilingWriter writer;
+    writer.spoiled = spoiled;
+    writer.bad = bad;
+    io::MapFields(writer).walk(map);
+    write_payload(path, writer.bytes.bytes);
+    return writer.bad_values;
+  };
+  const auto fields = write("", 0);
+  REQUIRE_NOTHROW(io::load_map(path));
+  REQUIRE(fields.size() > 40);
+  for (const auto& [name, count] : fields) {
+    if (name == "a descriptor") continue;  // bits, of which all mean something
+    for (int bad = 0; bad < count; ++bad) {
+      (void)write(name, bad);
+      const std::string why = error_of([&] { (void)io::load_map(path); });
+      INFO(name << ", bad value " << bad << ": " << why);
+      REQUIRE(contains(why, "a.sslam: " + name + " is "));
+      REQUIRE(contains(why, "; expected "));
+      REQUIRE(is_one_line(why));
+    }
+  }
+}
+
+TEST_CASE("A map file whose bytes are changed is refused or taken, and nothing else") {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "a.sslam";
+  ByteWriter payload;
+  Map<double> map = room_map();
+  io::MapFields(payload).walk(map);
+  Random random(7);
+  for (int round = 0; round < 300; ++round) {
+    std::string bytes = payload.bytes;
+    for (int change = 0; change < 3; ++change)
+      bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] = static_cast<char>(random.below(256));
+    if (round % 3 == 0) bytes.resize(random.below(static_cast<std::uint32_t>(bytes.size())));
+    write_payload(path, bytes);
+    std::size_t keyframes = 0;
+    const std::string why = error_of([&] { keyframes = io::load_map(path).keyframes.size(); });
+    REQUIRE((keyframes > 0 || is_one_line(why)));
+  }
+}
 
 TEST_CASE("A map comes back from its file as it was") {
   const ScratchFolder folder;
@@ -117,5 +203,8 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
   refused([](auto& m) { m.planes[0].plane.distance = std::nan(""); });
   refused([](auto& m) { m.planes[0].alive = false; });  // and has members
   refused([](auto& m) { m.lines[0].plane = 1; });
+  refused([](auto& m) { m.lines[0].line.direction.setZero(); });
+  refused([](auto& m) { m.lines[0].first_keyframe = 9; });
+  refused([](auto& m) { m.keyframes[3].neighbours.at(0).keyframe = 4; });  // which is gone
   refused([](auto& m) { m = {}; });
 }

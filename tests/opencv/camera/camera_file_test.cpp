@@ -98,6 +98,9 @@ TEST_CASE("A wrong camera file names file and key and says what would be right")
   check_error(std::string(kPinhole) + "Camera.width: 640.5\n",
               ": Camera.width is 640.5; expected a whole number of pixels");
   check_error(std::string(kPinhole) + "Camera.height: -480\n", ": Camera.height is -480; expected");
+  check_error(std::string(kPinhole) + "Camera.height: 0.5\n",
+              ": Camera.height is 0.5; expected a whole number of pixels");
+  check_error(std::string(kPinhole) + "Camera.height: 65536\n", ": Camera.height is 65536; expected");
   check_error(std::string("Camera.type: \"KannalaBrandt8\"\n") + kPinhole,
               ": Camera.type is 'KannalaBrandt8'; expected 'PinHole'");
 }
@@ -105,5 +108,24 @@ TEST_CASE("A wrong camera file names file and key and says what would be right")
 TEST_CASE("What is no camera file at all") {
   CHECK(error_of("/nowhere/camera.yaml") == "/nowhere/camera.yaml: no such camera file");
   CHECK(error_of("/") == "/: is not a file; expected a camera file");
+  check_error("- 1\n- 2\n", ": holds a list or a value instead of keys; expected lines such as");
   check_error("Camera.fx: [1, 2\n  - {broken\n", "not a YAML file that OpenCV reads");
+}
+
+TEST_CASE("A camera file that is deep or long is refused before it is parsed") {
+  const auto many = [](const std::string& part) {
+    std::string text;
+    for (int i = 0; i < 20000; ++i) text += part;
+    return text;
+  };
+  const auto stairs = [](std::size_t levels) {
+    std::string text;
+    for (std::size_t i = 0; i < levels; ++i) text += std::string(i, ' ') + "a:\n";
+    return text;
+  };
+  for (const std::string& deep : {"Camera.fx: " + many("["), "Camera.fx: " + many("{a: "), many("- "),
+                                  many("a: "), many("? "), stairs(400), "Camera.fx: [" + many("\"]\", [")})
+    check_error(deep, ": is nested too deeply; expected keys with numbers");
+  check_error(std::string(kPinhole) + std::string((1 << 20) + 1, '#'), ": is longer than 1 MB");
+  check_error(stairs(256), "");  // as deep as may be
 }

@@ -80,6 +80,8 @@ TEST_CASE("a file that is no manifest or no model is named", "[normals]") {
   check_complaint(folder.path() / "absent.onnx", "no such model");
   check_complaint(folder.path() / "text.json", "text.json");
   check_complaint(folder.path() / "empty.json", "empty.json");
+  folder.write("deep.json", std::string(100000, '['));
+  check_complaint(folder.path() / "deep.json", "deep.json: is nested too deeply");
   check_complaint(folder.path() / "junk.onnx", "junk.json: no such manifest");
   const auto junk =
       changed(folder, fixtures() / "tiny_normals.json", {{"\"tiny_normals.onnx\"", "\"junk.onnx\""}});

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "sslam/core/error.hpp"
+#include "sslam/io/maps/field_range.hpp"
 
 namespace sslam::io {
 
@@ -22,9 +23,15 @@ struct ByteWriter {
   template <class T>
   requires std::is_arithmetic_v<T>
   void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+
+  // A field that its reader will hold against a range.
+  template <class T>
+  void operator()(const T& value, const FieldRange<T>&) {
+    (*this)(value);
+  }
 };
 
-// Takes from the front of a view; throws Error at its end.
+// Takes from the front of a view; throws Error at its end, and where a field is out of its range.
 class ByteReader {
  public:
   static constexpr bool kReads = true;
@@ -33,6 +40,12 @@ class ByteReader {
   template <class T>
   requires std::is_arithmetic_v<T>
   void operator()(T& value) { std::memcpy(&value, take(sizeof value).data(), sizeof value); }
+
+  template <class T>
+  void operator()(T& value, const FieldRange<T>& range) {
+    (*this)(value);
+    range.demand(value);
+  }
 
   [[nodiscard]] std::string_view take(std::size_t size) {
     if (left_.size() < size) throw Error("ends too early");

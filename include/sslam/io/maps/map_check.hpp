@@ -5,56 +5,88 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "sslam/core/error.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam::io {
 
-// Throws Error when ids point outside the map or numbers are not finite: such a map would crash its reader.
+namespace map_check_detail {
+
+inline void demand(bool holds) {
+  if (!holds) throw Error("contradicts itself");
+}
+
+inline bool inside(std::int32_t id, std::size_t size) {
+  return id >= 0 && static_cast<std::size_t>(id) < size;
+}
+
+inline bool is_unit(const Vec3<double>& v) {
+  return std::abs(v.norm() - 1) < 1e-6;
+}
+
+// Parents come from those that were alive when it went; a ring of them would have no pose. Each keyframe is
+// passed once, however long the chains are.
+inline void check_parents(const Map<double>& map) {
+  enum class Known : std::uint8_t { kNo, kOnTheWay, kYes };
+  std::vector<Known> known(map.keyframes.size(), Known::kNo);
+  std::vector<std::size_t> way;
+  for (std::size_t start = 0; start < map.keyframes.size(); ++start) {
+    way.clear();
+    for (std::size_t at = start; known[at] != Known::kYes;) {
+      demand(known[at] == Known::kNo);
+      known[at] = Known::kOnTheWay;
+      way.push_back(at);
+      const KeyframeId parent = map.keyframes[at].parent;
+      if (parent == kNone) break;
+      demand(inside(parent, map.keyframes.size()));
+      at = map.index(parent);
+    }
+    for (const std::size_t passed : way) known[passed] = Known::kYes;
+  }
+}
+
+inline void check_keyframe(const Map<double>& map, std::size_t k, int axes) {
+  const Keyframe<double>& kf = map.keyframes[k];
+  demand(kf.id == static_cast<KeyframeId>(k));
+  demand(kf.point_landmarks.size() == kf.frame.points.size());
+  demand(kf.line_landmarks.size() == kf.frame.lines.size());
+  demand(kf.line_axes.empty() || kf.line_axes.size() == kf.frame.lines.size());
+  for (const std::int8_t axis : kf.line_axes) demand(axis < axes);
+  for (const LandmarkId id : kf.point_landmarks) demand(id == kNone || inside(id, map.points.size()));
+  for (const LandmarkId id : kf.line_landmarks) demand(id == kNone || inside(id, map.lines.size()));
+  for (const Neighbour& n : kf.neighbours)
+    demand(inside(n.keyframe, map.keyframes.size()) && map.keyframes[map.index(n.keyframe)].alive());
+}
+
+// features(keyframe): how many the landmarks' observations can choose from.
+template <class Landmarks, class Features>
+void check_landmarks(const Map<double>& map, const Landmarks& landmarks, Features features) {
+  for (const auto& landmark : landmarks) {
+    demand(landmark.first_keyframe == kNone || inside(landmark.first_keyframe, map.keyframes.size()));
+    demand(landmark.plane == kNone ||
+           (inside(landmark.plane, map.planes.size()) && map.planes[map.index(landmark.plane)].alive));
+    for (const Observation& o : landmark.observations)
+      demand(inside(o.keyframe, map.keyframes.size()) &&
+             inside(o.feature, features(map.keyframes[map.index(o.keyframe)])));
+  }
+}
+
+}  // namespace map_check_detail
+
+// Throws Error when the parts of a map, each within its range (map_fields.hpp), do not fit each other: such a
+// map would crash its reader.
 inline void check_map(const Map<double>& map) {
-  const auto demand = [](bool holds) {
-    if (!holds) throw Error("contradicts itself");
-  };
-  const auto inside = [](std::int32_t id, std::size_t size) {
-    return id >= 0 && static_cast<std::size_t>(id) < size;
-  };
+  using namespace map_check_detail;
   const int axes = 3 * static_cast<int>(map.world_from_manhattan.size());
   demand(!map.keyframes.empty() && map.keyframes.front().alive());
-  for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
-    const Keyframe<double>& kf = map.keyframes[k];
-    demand(kf.id == static_cast<KeyframeId>(k));
-    demand(kf.cam_from_world.translation.allFinite() && kf.cam_from_world.rotation.matrix().allFinite());
-    // Parents come from those that were alive when it went; a ring of them would have no pose.
-    KeyframeId parent = kf.parent;
-    for (std::size_t steps = 0; parent != kNone; ++steps) {
-      demand(inside(parent, map.keyframes.size()) && steps < map.keyframes.size());
-      parent = map.keyframes[map.index(parent)].parent;
-    }
-    demand(kf.point_landmarks.size() == kf.frame.points.size());
-    demand(kf.line_landmarks.size() == kf.frame.lines.size());
-    demand(kf.line_axes.empty() || kf.line_axes.size() == kf.frame.lines.size());
-    for (const std::int8_t axis : kf.line_axes) demand(axis >= kNone && axis < axes);
-    for (const LandmarkId id : kf.point_landmarks) demand(id == kNone || inside(id, map.points.size()));
-    for (const LandmarkId id : kf.line_landmarks) demand(id == kNone || inside(id, map.lines.size()));
-    for (const Neighbour& n : kf.neighbours) demand(inside(n.keyframe, map.keyframes.size()));
-  }
-  const auto check_landmarks = [&](const auto& landmarks, auto features) {
-    for (const auto& landmark : landmarks) {
-      demand(landmark.plane == kNone ||
-             (inside(landmark.plane, map.planes.size()) && map.planes[map.index(landmark.plane)].alive));
-      for (const Observation& o : landmark.observations)
-        demand(inside(o.keyframe, map.keyframes.size()) &&
-               inside(o.feature, features(map.keyframes[map.index(o.keyframe)])));
-    }
-  };
-  check_landmarks(map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
-  check_landmarks(map.lines, [](const Keyframe<double>& kf) { return kf.frame.lines.size(); });
-  for (const auto& p : map.points) demand(p.position.allFinite());
-  for (const auto& l : map.lines) demand(l.line.moment.allFinite() && l.axis >= kNone && l.axis < axes);
-  for (const auto& p : map.planes)
-    demand(std::abs(p.plane.normal.norm() - 1) < 1e-6 && std::isfinite(p.plane.distance) && p.axis >= kNone &&
-           p.axis < axes);
+  check_parents(map);
+  for (std::size_t k = 0; k < map.keyframes.size(); ++k) check_keyframe(map, k, axes);
+  check_landmarks(map, map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
+  check_landmarks(map, map.lines, [](const Keyframe<double>& kf) { return kf.frame.lines.size(); });
+  for (const auto& l : map.lines) demand(is_unit(l.line.direction) && l.axis < axes);
+  for (const auto& p : map.planes) demand(is_unit(p.plane.normal) && p.axis < axes);
 }
 
 }  // namespace sslam::io

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a map goes into a file, in order: one list of fields that a writer and a reader both walk.
+// What of a map goes into a file, in order, and within which range: one list of fields that a writer and a
+// reader both walk.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -14,149 +15,184 @@
 
 namespace sslam::io {
 
-// Walks the fields of a map with an archive, in an order that the file's version stands for.
+// Walks the fields of a map with an archive, in an order that the file's version stands for. Each field is
+// handed over with its range: there is no other way to the archive. Whether ids and lists agree with each
+// other is left to check_map.
 template <class Archive>
 class MapFields {
  public:
   explicit MapFields(Archive& archive) : archive_(archive) {}
 
   void walk(Map<double>& map) {
-    fields(map.keyframes);
-    fields(map.points);
-    fields(map.lines);
-    fields(map.planes);
-    fields(map.world_from_manhattan);
+    list("keyframes", map.keyframes);
+    list("points", map.points);
+    list("lines", map.lines);
+    list("planes", map.planes);
+    list("Manhattan frames", map.world_from_manhattan);
   }
 
  private:
+  // Wider than anything that a camera sees, and so narrow that squares and products stay finite.
+  static constexpr double kMetres = 1e15, kPixels = 1e9, kCovariance = 1e30;
+  static constexpr std::int32_t kCount = 1'000'000'000;
+
+  template <class T>
+  void field(T& value, const FieldRange<T>& range) {
+    archive_(value, range);
+  }
+
   template <int R, int C>
-  void fields(Eigen::Matrix<double, R, C>& m) {
-    for (double& value : m.reshaped()) archive_(value);
+  void field(Eigen::Matrix<double, R, C>& m, const char* name, double largest) {
+    for (double& value : m.reshaped()) field(value, {name, -largest, largest});
+  }
+
+  void id(std::int32_t& value, const char* name) { field(value, {name, kNone, kCount}); }
+  void count(std::int32_t& value, const char* name) { field(value, {name, 0, kCount}); }
+
+  // As a byte: another value than 0 and 1 would be no bool.
+  void truth(bool& value, const char* name) {
+    std::uint8_t byte = value ? 1 : 0;
+    field(byte, {name, 0, 1});
+    if constexpr (Archive::kReads) value = byte != 0;
   }
 
   void fields(SO3<double>& rotation) {
     Vec4<double> q(rotation.quaternion().w(), rotation.quaternion().x(), rotation.quaternion().y(),
                    rotation.quaternion().z());
-    fields(q);
-    if constexpr (Archive::kReads) rotation = SO3<double>::from_quaternion(q[0], q[1], q[2], q[3]);
+    field(q, "a rotation", 1 + 1e-6);
+    if constexpr (Archive::kReads) {
+      if (std::abs(q.norm() - 1) > 1e-6) throw Error("a rotation is not of unit length");
+      rotation = SO3<double>::from_quaternion(q[0], q[1], q[2], q[3]);
+    }
   }
 
   void fields(SE3<double>& pose) {
     fields(pose.rotation);
-    fields(pose.translation);
+    field(pose.translation, "a translation", kMetres);
   }
 
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void fields(T& value) { archive_(value); }
-
-  template <class T>
-  void fields(std::optional<T>& value) {
-    std::uint8_t there = value.has_value() ? 1 : 0;
-    archive_(there);
-    if constexpr (Archive::kReads) value = there != 0 ? std::optional<T>(T()) : std::nullopt;
-    if (value) fields(*value);
-  }
-
-  template <class T>
-  void fields(std::vector<T>& values) {
+  // An entry takes a byte or more; what is set aside at once is no more than the file has.
+  template <class T, class Entry>
+  void list(const char* name, std::vector<T>& values, Entry entry) {
     std::uint64_t size = values.size();
-    archive_(size);
     if constexpr (Archive::kReads) {
-      if (size > archive_.left().size()) throw Error("ends too early");  // an entry takes a byte or more
-      values.resize(static_cast<std::size_t>(size));
+      field(size, {name, 0, archive_.left().size()});
+      values.clear();
+      values.reserve(std::min<std::size_t>(size, archive_.left().size() / sizeof(T)));
+      for (std::uint64_t i = 0; i < size; ++i) entry(values.emplace_back());
+    } else {
+      field(size, {name});
+      for (T& value : values) entry(value);
     }
-    for (T& value : values) fields(value);
+  }
+
+  template <class T>
+  void list(const char* name, std::vector<T>& values) {
+    list(name, values, [this](T& value) { fields(value); });
   }
 
   void fields(Descriptor& descriptor) {
-    for (std::uint64_t& word : descriptor.words) archive_(word);
+    for (std::uint64_t& word : descriptor.words) field(word, {"a descriptor"});
   }
 
   void fields(PointFeature<double>& f) {
-    fields(f.pixel);
-    archive_(f.sigma);
-    archive_(f.angle);
-    archive_(f.octave);
+    field(f.pixel, "a pixel", kPixels);
+    sigma(f.sigma);
+    field(f.angle, {"an angle", -1e3, 1e3});
+    octave(f.octave);
     fields(f.descriptor);
   }
 
   void fields(LineFeature<double>& f) {
-    fields(f.segment.start);
-    fields(f.segment.end);
-    archive_(f.sigma);
-    archive_(f.octave);
+    field(f.segment.start, "a segment's start", kPixels);
+    field(f.segment.end, "a segment's end", kPixels);
+    sigma(f.sigma);
+    octave(f.octave);
     fields(f.descriptor);
   }
 
-  void fields(RotationObservation<double>& o) {
-    fields(o.cam_from_world);
-    fields(o.covariance);
+  void sigma(double& value) { field(value, {"a feature's sigma", 1e-9, kPixels}); }
+  void octave(std::uint8_t& value) { field(value, {"an octave", 0, 63}); }
+
+  void fields(std::optional<RotationObservation<double>>& o) {
+    bool there = o.has_value();
+    truth(there, "whether there is a Manhattan rotation");
+    if constexpr (Archive::kReads) o = there ? std::optional<RotationObservation<double>>({}) : std::nullopt;
+    if (!there) return;
+    fields(o->cam_from_world);
+    field(o->covariance, "a covariance", kCovariance);
   }
 
   void fields(Neighbour& n) {
-    archive_(n.keyframe);
-    archive_(n.shared);
+    id(n.keyframe, "a neighbour");
+    count(n.shared, "the count of shared landmarks");
   }
 
   void fields(Observation& o) {
-    archive_(o.keyframe);
-    archive_(o.feature);
+    id(o.keyframe, "an observation's keyframe");
+    id(o.feature, "an observation's feature");
+  }
+
+  void fields(Frame<double>& frame) {
+    field(frame.index, {"a frame's index", -1, std::int64_t{1'000'000'000'000'000}});
+    field(frame.stamp, {"a stamp", -1e15, 1e15});
+    Pinhole<double>& pinhole = frame.pinhole;
+    for (double* focal : {&pinhole.fx, &pinhole.fy}) field(*focal, {"a focal length", 1e-9, kPixels});
+    for (double* centre : {&pinhole.cx, &pinhole.cy})
+      field(*centre, {"a principal point", -kPixels, kPixels});
+    for (int* side : {&frame.width, &frame.height}) field(*side, {"an image's size", 0, 65535});
+    list("point features", frame.points);
+    list("line features", frame.lines);
   }
 
   void fields(Keyframe<double>& kf) {
-    archive_(kf.id);
-    archive_(kf.frame.index);
-    archive_(kf.frame.stamp);
-    for (double* value :
-         {&kf.frame.pinhole.fx, &kf.frame.pinhole.fy, &kf.frame.pinhole.cx, &kf.frame.pinhole.cy})
-      archive_(*value);
-    archive_(kf.frame.width);
-    archive_(kf.frame.height);
-    fields(kf.frame.points);
-    fields(kf.frame.lines);
+    id(kf.id, "a keyframe's id");
+    fields(kf.frame);
     fields(kf.cam_from_world);
-    fields(MapDoor::open(kf.point_landmarks));
-    fields(MapDoor::open(kf.line_landmarks));
-    fields(kf.line_axes);
+    const auto landmark = [this](LandmarkId& value) { id(value, "a feature's landmark"); };
+    list("landmarks of points", MapDoor::open(kf.point_landmarks), landmark);
+    list("landmarks of lines", MapDoor::open(kf.line_landmarks), landmark);
+    list("axes of lines", kf.line_axes, [this](std::int8_t& value) { axis(value); });
     fields(kf.manhattan);
-    fields(kf.neighbours);
-    archive_(kf.parent);
+    list("neighbours", kf.neighbours);
+    id(kf.parent, "a parent");
     fields(kf.cam_from_parent);
   }
 
+  void axis(std::int8_t& value) { field(value, {"an axis", kNone, std::int8_t{126}}); }
+
   void fields_in_common(LandmarkCommon& l) {
     fields(l.descriptor);
-    fields(MapDoor::open(l.observations));
-    archive_(l.first_keyframe);
-    archive_(l.visible);
-    archive_(l.found);
-    archive_(l.plane);
-    archive_(l.alive);
+    list("observations", MapDoor::open(l.observations));
+    id(l.first_keyframe, "a landmark's first keyframe");
+    count(l.visible, "how often a landmark should have been seen");
+    count(l.found, "how often a landmark was seen");
+    id(l.plane, "a landmark's plane");
+    truth(l.alive, "whether a landmark is alive");
   }
 
   void fields(PointLandmark<double>& p) {
     fields_in_common(p);
-    fields(p.position);
-    fields(p.viewing_direction);
-    archive_(p.extent);
+    field(p.position, "a point", kMetres);
+    field(p.viewing_direction, "a viewing direction", 1 + 1e-6);
+    field(p.extent, {"a point's extent", 0, kMetres});
   }
 
   void fields(LineLandmark<double>& l) {
     fields_in_common(l);
-    fields(l.line.moment);
-    fields(l.line.direction);
-    fields(l.start);
-    fields(l.end);
-    archive_(l.axis);
+    field(l.line.moment, "a line's moment", kMetres);
+    field(l.line.direction, "a line's direction", 1 + 1e-6);
+    field(l.start, "a line's start", kMetres);
+    field(l.end, "a line's end", kMetres);
+    axis(l.axis);
   }
 
   void fields(PlaneLandmark<double>& p) {
-    fields(p.plane.normal);
-    archive_(p.plane.distance);
-    archive_(p.axis);
-    archive_(p.support);
-    archive_(p.alive);
+    field(p.plane.normal, "a plane's normal", 1 + 1e-6);
+    field(p.plane.distance, {"a plane's distance", -kMetres, kMetres});
+    axis(p.axis);
+    count(p.support, "a plane's support");
+    truth(p.alive, "whether a plane is alive");
   }
 
   Archive& archive_;

@@ -12,6 +12,7 @@
 
 #include "sslam/core/error.hpp"
 #include "sslam/geometry/camera.hpp"
+#include "sslam/opencv/camera/storage_file.hpp"
 
 namespace sslam {
 
@@ -90,20 +91,28 @@ inline void open_yaml(cv::FileStorage& storage, const std::filesystem::path& pat
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw Error(path.string() + ": is not a file; expected a camera file");
   }
+  const std::string text = read_storage_text(path);
   bool opened = false;
   try {
-    opened = storage.open(path.string(), cv::FileStorage::READ | cv::FileStorage::FORMAT_YAML);
+    opened =
+        storage.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   } catch (const cv::Exception& error) {
     throw Error(path.string() + ": not a YAML file that OpenCV reads (" + error.err +
                 "); expected '%YAML:1.0', '---', then lines such as 'Camera.fx: 535.4'");
   }
   if (!opened) throw Error(path.string() + ": cannot open this camera file");
+  // OpenCV would end a look for a key in what has none by an assertion.
+  for (int i = 0; !storage.root(i).empty(); ++i)
+    if (!storage.root(i).isMap())
+      throw Error(path.string() +
+                  ": holds a list or a value instead of keys; expected lines such as "
+                  "'Camera.fx: 535.4'");
 }
 
 }  // namespace detail
 
-// Throws Error, in one line, when the file cannot be read or a key is missing, not a number, not
-// finite or not positive where it must be.
+// Throws Error, in one line, when the file cannot be read, is large or nested, or a key is missing, not a
+// number, not finite or not positive where it must be.
 [[nodiscard]] inline CameraFile read_camera_file(const std::filesystem::path& path) {
   cv::FileStorage storage;
   detail::open_yaml(storage, path);
@@ -130,8 +139,7 @@ inline void open_yaml(cv::FileStorage& storage, const std::filesystem::path& pat
   distortion.p2 = keys.optional(prefix + "p2", 0, coefficient);
   distortion.k3 = keys.optional(prefix + "k3", 0, coefficient);
   file.camera.width = keys.optional_pixels("Camera.width");
-  file.camera.height =
-      static_cast<int>(keys.optional_positive("Camera.height", "the image height in pixels"));
+  file.camera.height = keys.optional_pixels("Camera.height");
   file.frame_rate = keys.optional_positive("Camera.fps", "frames a second");
   const std::string factor_key = numbered ? "RGBD.DepthMapFactor" : "DepthMapFactor";
   file.depth_factor = keys.optional_positive(factor_key, "depth image units a metre");

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sslam/core/error.hpp"
+#include "sslam/opencv/camera/storage_file.hpp"
 
 namespace sslam {
 
@@ -175,7 +176,10 @@ inline void read_output(const cv::FileNode& node, const Reader& reader, NormalMa
     throw NormalModelError(file.string() + ": no such manifest");
   cv::FileStorage storage;
   try {
-    storage.open(file.string(), cv::FileStorage::READ | cv::FileStorage::FORMAT_JSON);
+    storage.open(read_storage_text(file),
+                 cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON);
+  } catch (const Error& error) {
+    throw NormalModelError(error.what());
   } catch (const cv::Exception& error) {
     throw NormalModelError(file.string() + ": not JSON: " + error.err.substr(0, error.err.find('\n')));
   }
