@@ -67,7 +67,8 @@ bool is_tiff(Bytes bytes) {
 std::size_t end_of_scan(Bytes bytes, std::size_t at) {
   for (;; ++at) {
     at = static_cast<std::size_t>(
-        std::find(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size())), bytes.end(), 0xff) -
+        std::find(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size())), bytes.end(),
+                  0xff) -
         bytes.begin());
     if (at + 1 >= bytes.size()) return bytes.size();
     const std::uint8_t code = bytes[at + 1];
@@ -96,7 +97,8 @@ void read_jpeg(Bytes bytes, ImageHeader& header) {
     }
     const std::size_t length = reader.number(at + 2, 2);
     const bool frame = code >= 0xc0 && code <= 0xcf && code != 0xc4 && code != 0xc8 && code != 0xcc;
-    if (frame && header.size.empty()) header.size = size_of(reader.number(at + 7, 2), reader.number(at + 5, 2));
+    if (frame && header.size.empty())
+      header.size = size_of(reader.number(at + 7, 2), reader.number(at + 5, 2));
     constexpr std::size_t kExif = 6;  // "Exif", and two zeros
     if (code == kApp1 && says(bytes, at + 4, "Exif") && length > 2 + kExif && at + 2 + length <= bytes.size())
       read_tiff(bytes.subspan(at + 4 + kExif, length - 2 - kExif), header, false);

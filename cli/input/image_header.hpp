@@ -18,16 +18,18 @@ inline constexpr ImageTurn kUpright = 1;
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::kOther;
-  cv::Size size;           // of the stored pixels; empty: not known
+  cv::Size size;  // of the stored pixels; empty: not known
   ImageTurn turn = kUpright;
-  bool complete = true;    // false: the file has lost its end, which decoders fill with grey
+  bool complete = true;  // false: the file has lost its end, which decoders fill with grey
 };
 
 // `bytes` is the whole file. What stands behind the image's own end is not looked at.
 [[nodiscard]] ImageHeader read_image_header(Bytes bytes);
 
 // Whether width and height change places.
-[[nodiscard]] constexpr bool swaps_sides(ImageTurn turn) noexcept { return turn >= 5; }
+[[nodiscard]] constexpr bool swaps_sides(ImageTurn turn) noexcept {
+  return turn >= 5;
+}
 
 [[nodiscard]] cv::Size turned_size(cv::Size stored, ImageTurn turn);
 [[nodiscard]] cv::Mat turned_image(const cv::Mat& stored, ImageTurn turn);

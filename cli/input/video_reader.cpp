@@ -56,7 +56,8 @@ Container open_container(const std::filesystem::path& file) {
   const int best = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &opened.decoder, 0);
   if (best == AVERROR_DECODER_NOT_FOUND)
     throw Error(file.string() + ": there is no decoder for this video here; convert it to H.264");
-  if (best < 0) throw Error(file.string() + ": cannot open this video: it holds sound or data, but no pictures");
+  if (best < 0)
+    throw Error(file.string() + ": cannot open this video: it holds sound or data, but no pictures");
   opened.stream = format->streams[best];
   for (unsigned i = 0; i < format->nb_streams; ++i)
     if (format->streams[i] != opened.stream) format->streams[i]->discard = AVDISCARD_ALL;
@@ -176,7 +177,8 @@ cv::Mat VideoReader::image() {
 VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_most) {
   const Container container = open_container(file);
   const AVStream& stream = *container.stream;
-  constexpr std::int64_t kReordered = 32;  // packets come in order of decoding: more than any codec puts aside
+  constexpr std::int64_t kReordered =
+      32;  // packets come in order of decoding: more than any codec puts aside
   const Packet packet(av_packet_alloc());
   VideoTimes found;
   bool timed = true;

@@ -14,17 +14,18 @@
 namespace sslam::cli {
 
 struct VideoInfo {
-  cv::Size size;               // of the stored pixels
-  ImageTurn turn = kUpright;   // what players do with them
-  double frame_rate = 0;       // frames a second, on average; 0: not known
-  std::int64_t claimed = 0;    // frames that the container claims to hold; 0: it does not say
+  cv::Size size;              // of the stored pixels
+  ImageTurn turn = kUpright;  // what players do with them
+  double frame_rate = 0;      // frames a second, on average; 0: not known
+  std::int64_t claimed = 0;   // frames that the container claims to hold; 0: it does not say
 };
 
 // What is in the container, without decoding it.
 struct VideoTimes {
-  std::vector<double> times;     // of the frames, seconds on the container's clock, in order of display; empty: not known
-  std::int64_t frames = 0;       // that are there to be shown
-  bool whole = true;             // the container was read to its end
+  std::vector<double>
+      times;  // of the frames, seconds on the container's clock, in order of display; empty: not known
+  std::int64_t frames = 0;  // that are there to be shown
+  bool whole = true;        // the container was read to its end
 };
 
 class VideoReader {
