@@ -9,9 +9,9 @@ namespace sslam::cli {
 namespace {
 
 // Reads numbers at a place; 0 beyond the end, which no format takes for a good value.
-class Reader {
+class ByteReader {
  public:
-  Reader(Bytes bytes, bool big_endian) : bytes_(bytes), big_endian_(big_endian) {}
+  ByteReader(Bytes bytes, bool big_endian) : bytes_(bytes), big_endian_(big_endian) {}
 
   [[nodiscard]] std::uint32_t number(std::size_t at, int size) const {
     std::uint32_t value = 0;
@@ -43,7 +43,7 @@ cv::Size size_of(std::uint32_t width, std::uint32_t height) {
 // TIFF's first directory, which EXIF is made of as well.
 void read_tiff(Bytes bytes, ImageHeader& header, bool with_size) {
   const bool big = says(bytes, 0, "MM");
-  const Reader reader(bytes, big);
+  const ByteReader reader(bytes, big);
   const std::size_t directory = reader.number(4, 4);
   const std::uint32_t entries = reader.number(directory, 2);
   std::uint32_t width = 0, height = 0;
@@ -78,7 +78,7 @@ std::size_t end_of_scan(Bytes bytes, std::size_t at) {
 
 void read_jpeg(Bytes bytes, ImageHeader& header) {
   constexpr std::uint8_t kEnd = 0xd9, kScan = 0xda, kApp1 = 0xe1;
-  const Reader reader(bytes, true);
+  const ByteReader reader(bytes, true);
   header.complete = false;
   std::size_t at = 2;
   while (at + 2 <= bytes.size()) {
@@ -108,7 +108,7 @@ void read_jpeg(Bytes bytes, ImageHeader& header) {
 }
 
 void read_png(Bytes bytes, ImageHeader& header) {
-  const Reader reader(bytes, true);
+  const ByteReader reader(bytes, true);
   header.size = size_of(reader.number(16, 4), reader.number(20, 4));
   header.complete = false;
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
@@ -124,7 +124,7 @@ void read_png(Bytes bytes, ImageHeader& header) {
 }
 
 void read_webp(Bytes bytes, ImageHeader& header) {
-  const Reader reader(bytes, false);
+  const ByteReader reader(bytes, false);
   const std::size_t end = std::size_t{reader.number(4, 4)} + 8;
   header.complete = bytes.size() >= end;
   if (says(bytes, 12, "VP8X")) {
@@ -147,7 +147,7 @@ void read_webp(Bytes bytes, ImageHeader& header) {
 }
 
 void read_bmp(Bytes bytes, ImageHeader& header) {
-  const Reader reader(bytes, false);
+  const ByteReader reader(bytes, false);
   const auto height = static_cast<std::int32_t>(reader.number(22, 4));  // negative: rows from the top
   header.size = size_of(reader.number(18, 4), height < 0 ? 0U - static_cast<std::uint32_t>(height)
                                                          : static_cast<std::uint32_t>(height));

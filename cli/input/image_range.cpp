@@ -10,7 +10,7 @@ namespace sslam::cli {
 namespace {
 
 // The value below which this share of the pixels lies.
-int quantile(const std::vector<std::size_t>& counts, double share) {
+int value_below(const std::vector<std::size_t>& counts, double share) {
   const auto total = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   const auto wanted = static_cast<std::size_t>(share * static_cast<double>(total));
   std::size_t passed = 0;
@@ -35,7 +35,7 @@ void ImageRange::add(const cv::Mat& image) {
 void ImageRange::settle() {
   constexpr double kOutliers = 0.001;  // hot and dead pixels
   constexpr int kFewestBits = 8;
-  const int low = quantile(counts_, kOutliers), high = quantile(counts_, 1 - kOutliers);
+  const int low = value_below(counts_, kOutliers), high = value_below(counts_, 1 - kOutliers);
   // A sensor of so many bits; but values that keep far from black are a band, with room for what comes later.
   const auto bits = static_cast<int>(std::bit_width(static_cast<unsigned>(high)));
   black_ = 0;

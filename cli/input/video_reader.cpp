@@ -25,10 +25,10 @@ struct Freed {
     kFree(&object);
   }
 };
-using Format = std::unique_ptr<AVFormatContext, Freed<avformat_close_input>>;
-using Codec = std::unique_ptr<AVCodecContext, Freed<avcodec_free_context>>;
-using Packet = std::unique_ptr<AVPacket, Freed<av_packet_free>>;
-using Frame = std::unique_ptr<AVFrame, Freed<av_frame_free>>;
+using FormatHandle = std::unique_ptr<AVFormatContext, Freed<avformat_close_input>>;
+using CodecHandle = std::unique_ptr<AVCodecContext, Freed<avcodec_free_context>>;
+using PacketHandle = std::unique_ptr<AVPacket, Freed<av_packet_free>>;
+using FrameHandle = std::unique_ptr<AVFrame, Freed<av_frame_free>>;
 
 // Decoders talk of every flaw that they meet. OpenCV's writer sets FFmpeg's level of talk, but no callback.
 void silence() {
@@ -36,15 +36,15 @@ void silence() {
 }
 
 // A container and the one stream in it that is looked at.
-struct Container {
-  Format format;
+struct VideoContainer {
+  FormatHandle format;
   AVStream* stream = nullptr;
   const AVCodec* decoder = nullptr;
 };
 
-Container open_container(const std::filesystem::path& file) {
+VideoContainer open_container(const std::filesystem::path& file) {
   silence();
-  Container opened;
+  VideoContainer opened;
   AVFormatContext* format = nullptr;
   AVDictionary* options = nullptr;
   av_dict_set(&options, "protocol_whitelist", "file", 0);  // a playlist must not lead into the network
@@ -65,7 +65,7 @@ Container open_container(const std::filesystem::path& file) {
 }
 
 // The next packet with pictures; false at the end. VP8 hides pictures that only serve others.
-bool next_packet(const Container& container, AVPacket& packet) {
+bool next_packet(const VideoContainer& container, AVPacket& packet) {
   while (av_read_frame(container.format.get(), &packet) >= 0) {
     if (packet.stream_index == container.stream->index && packet.size > 0) return true;
     av_packet_unref(&packet);
@@ -73,13 +73,13 @@ bool next_packet(const Container& container, AVPacket& packet) {
   return false;
 }
 
-bool is_shown(const Container& container, const AVPacket& packet) {
+bool is_shown(const VideoContainer& container, const AVPacket& packet) {
   constexpr std::uint8_t kShownVp8 = 0x10;
   if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;
   return container.stream->codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & kShownVp8) != 0;
 }
 
-double seconds(std::int64_t stamp, const AVStream& stream) {
+double container_seconds(std::int64_t stamp, const AVStream& stream) {
   return static_cast<double>(stamp) * av_q2d(stream.time_base);
 }
 
@@ -97,10 +97,10 @@ ImageTurn turn_of(const AVStream& stream) {
 }  // namespace
 
 struct VideoReader::Parts {
-  Container container;
-  Codec codec;
-  Packet packet{av_packet_alloc()};
-  Frame frame{av_frame_alloc()};
+  VideoContainer container;
+  CodecHandle codec;
+  PacketHandle packet{av_packet_alloc()};
+  FrameHandle frame{av_frame_alloc()};
   SwsContext* scaler = nullptr;
   bool drained = false;
   VideoInfo info;
@@ -155,7 +155,7 @@ bool VideoReader::advance() {
 std::optional<double> VideoReader::time() const {
   const std::int64_t stamp = parts_->frame->best_effort_timestamp;
   if (stamp == AV_NOPTS_VALUE) return std::nullopt;
-  return seconds(stamp, *parts_->container.stream);
+  return container_seconds(stamp, *parts_->container.stream);
 }
 
 cv::Mat VideoReader::image() {
@@ -175,18 +175,18 @@ cv::Mat VideoReader::image() {
 }
 
 VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_most) {
-  const Container container = open_container(file);
+  const VideoContainer container = open_container(file);
   const AVStream& stream = *container.stream;
   constexpr std::int64_t kReordered =
       32;  // packets come in order of decoding: more than any codec puts aside
-  const Packet packet(av_packet_alloc());
+  const PacketHandle packet(av_packet_alloc());
   VideoTimes found;
   bool timed = true;
   while (found.whole && next_packet(container, *packet)) {
     if (is_shown(container, *packet)) {
       ++found.frames;
       timed = timed && packet->pts != AV_NOPTS_VALUE;
-      if (timed) found.times.push_back(seconds(packet->pts, stream));
+      if (timed) found.times.push_back(container_seconds(packet->pts, stream));
       found.whole = at_most < 0 || found.frames < at_most + kReordered;
     }
     av_packet_unref(packet.get());
