@@ -14,6 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/input/camera_yaml.hpp"
 #include "cli/input/open_images.hpp"
+#include "cli/input/video_reader.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
@@ -50,7 +51,7 @@ void write_camera(const CalibrateSettings& settings, const io::Dataset& dataset,
   file.camera = calibration.camera;
   file.frame_rate = settings.frame_rate;
   if (file.frame_rate == 0 && dataset.layout == io::Layout::kVideo)
-    file.frame_rate = cv::VideoCapture(dataset.root.string()).get(cv::CAP_PROP_FPS);
+    file.frame_rate = VideoReader(dataset.root).info().frame_rate;
   const std::string remarks =
       cv::format("# sslam calibrate: reprojection error %.3f pixels RMS over %zu views\n", calibration.error,
                  calibration.views.size());

@@ -133,10 +133,11 @@ void run_normals(const NormalsSettings& settings) {
   print_warnings(dataset.warnings);
   OnnxNormals model = open_model(settings.model);
   const NormalManifest manifest = model.manifest();
-  ImageCamera camera(find_camera(settings.camera, dataset), assumed_focal_per_width(manifest.input));
+  const std::optional<CameraChoice> known = find_camera(settings.camera, dataset);
+  ImageCamera camera(known, assumed_focal_per_width(manifest.input));
   prepare_folder(settings.out, dataset, manifest);
   NormalWriter writer(std::move(model), std::move(camera), settings.out);
-  FrameReader reader(dataset);
+  FrameReader reader(dataset, known ? cv::Size(known->camera.width, known->camera.height) : cv::Size());
   std::vector<std::string> failures;
   const bool told = dataset.frames.size() > 1 || settings.verbosity == Verbosity::kJson;
   Progress progress(dataset.frames.size(), told ? settings.verbosity : Verbosity::kQuiet, "normals");

@@ -62,6 +62,8 @@ void run(RunSettings settings) {
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
   check_normals(settings, dataset, camera.depth_factor);
+  MaskSource masks;
+  if (!settings.mask.empty()) masks = MaskSource(settings.mask, {camera.camera.width, camera.camera.height});
   wanted.camera = camera.camera;
   wanted.depth_factor = camera.depth_factor;
   wanted.normals = choose_normals(settings.normals);
@@ -85,7 +87,7 @@ void run(RunSettings settings) {
   ProgressObserver progress_observer(progress);
   system.add_observer(progress_observer);
   const Interrupt interrupt;  // until all is written
-  FrameStream stream(dataset, system, settings.live ? dataset.seconds_per_stamp : 0);
+  FrameStream stream(dataset, system, settings.live ? dataset.seconds_per_stamp : 0, masks);
   track_sequence(system, stream, recorder, known_keyframes);
   progress.finish();
 
@@ -125,6 +127,12 @@ void add_run_command(CLI::App& app) {
                    "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names())
       ->type_name("FILE");
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
+  command
+      ->add_option(
+          "--mask", s->mask,
+          "Image whose pixels of 0 are left out of all frames (a robot's own parts, burnt-in text), or "
+          "a folder with such an image for each frame, NAME.png")
+      ->type_name("PATH");
   std::string presets = "What the pipeline is made of:";
   std::vector<std::string> names;
   for (const Preset& preset : all_presets()) {

@@ -21,6 +21,7 @@ struct RunSettings {
   std::string dataset;
   std::string camera;   // file or name; empty: from the dataset
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
+  std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all
   std::string preset = "structure";
   std::string map;  // file of an earlier run to go on in; empty: none
   std::string out = "out";

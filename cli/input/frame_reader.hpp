@@ -3,60 +3,58 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 
-#include "cli/input/image_file.hpp"
+#include "cli/input/image_header.hpp"
+#include "cli/input/image_range.hpp"
+#include "cli/input/video_reader.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 
 // The name, without extension, of files that belong to one frame of a video.
-[[nodiscard]] inline std::string video_frame_stem(const std::filesystem::path& video, std::int64_t index) {
-  char number[32];
-  std::snprintf(number, sizeof number, "_%06lld", static_cast<long long>(index));
-  return video.stem().string() + number;
-}
+[[nodiscard]] std::string video_frame_stem(const std::filesystem::path& video, std::int64_t index);
+
+// What is read of images that are stored `stored` and shown turned: a calibration is of the stored pixels
+// where its size says so, else of the upright ones. Video is shown turned by everything that writes
+// calibrations from it; of images that are stored upside down, most programs see the stored pixels.
+[[nodiscard]] ImageTurn turn_for_camera(cv::Size stored, ImageTurn turn, cv::Size camera, bool video);
 
 class FrameReader {
  public:
-  // The dataset must outlive the reader.
-  explicit FrameReader(const io::Dataset& dataset) : dataset_(dataset) {
-    if (is_video()) video_.open(dataset_.root.string());
-  }
+  // `camera`: the size that the calibration is for; empty: there is no calibration, and images are shown
+  // upright. The dataset must outlive the reader. Throws Error when a video cannot be opened.
+  explicit FrameReader(const io::Dataset& dataset, cv::Size camera = {});
 
   // 8 bit BGR; entries must come in the order of the dataset. Empty, with the reason in `why`, when it cannot
   // be decoded.
-  [[nodiscard]] cv::Mat read(const io::FrameEntry& entry, std::string& why) {
-    if (!is_video()) return load_image(entry.image, cv::IMREAD_COLOR, why);
-    cv::Mat image;
-    while (next_ < entry.index && video_.grab()) ++next_;
-    if (next_ == entry.index && video_.read(image)) ++next_;
-    if (image.empty()) why = entry.image + ": cannot decode frame " + std::to_string(entry.index);
-    return image;
-  }
+  [[nodiscard]] cv::Mat read(const io::FrameEntry& entry, std::string& why);
 
   // For people.
-  [[nodiscard]] std::string label(const io::FrameEntry& entry) const {
-    const std::string file = std::filesystem::path(entry.image).filename().string();
-    return is_video() ? file + " frame " + std::to_string(entry.index) : file;
-  }
+  [[nodiscard]] std::string label(const io::FrameEntry& entry) const;
 
   // The name, without folder and extension, of files that belong to the frame, such as its normals.
-  [[nodiscard]] std::string stem(const io::FrameEntry& entry) const {
-    return is_video() ? video_frame_stem(entry.image, entry.index)
-                      : std::filesystem::path(entry.image).stem().string();
-  }
+  [[nodiscard]] std::string stem(const io::FrameEntry& entry) const;
+
+  // Of 16 bit images, once one has been read.
+  [[nodiscard]] const std::optional<ImageRange>& range() const noexcept { return range_; }
 
  private:
-  [[nodiscard]] bool is_video() const noexcept { return dataset_.layout == io::Layout::kVideo; }
+  [[nodiscard]] bool is_video() const noexcept { return video_ != nullptr; }
+  [[nodiscard]] cv::Mat read_file(const io::FrameEntry& entry, std::string& why);
+  [[nodiscard]] cv::Mat read_video(const io::FrameEntry& entry, std::string& why);
+  void find_range(const cv::Mat& read);
 
   const io::Dataset& dataset_;
-  cv::VideoCapture video_;
-  std::int64_t next_ = 0;  // frame that the video gives next
+  cv::Size camera_;
+  std::unique_ptr<VideoReader> video_;
+  bool decoded_ = false;     // the video has decoded a frame that nobody has asked for yet
+  std::int64_t frame_ = -1;  // its number
+  std::optional<ImageRange> range_;
 };
 
 }  // namespace sslam::cli

@@ -8,8 +8,12 @@
 
 namespace sslam::cli {
 
-FrameStream::FrameStream(const io::Dataset& dataset, System& system, double pace)
-    : dataset_(dataset), system_(system), pace_(pace), reader_(dataset) {
+FrameStream::FrameStream(const io::Dataset& dataset, System& system, double pace, MaskSource masks)
+    : dataset_(dataset),
+      system_(system),
+      pace_(pace),
+      reader_(dataset, {system.settings().camera.width, system.settings().camera.height}),
+      masks_(std::move(masks)) {
   producer_ = std::thread([this] { produce(); });
 }
 
@@ -83,7 +87,12 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
   input.name = reader_.stem(entry);
   std::string why;
   input.image = reader_.read(entry, why);
-  if (!input.image.empty()) read_depth(entry, input, out);
+  if (!input.image.empty()) {
+    read_depth(entry, input, out);
+    std::string maskless;
+    input.mask = masks_.of(input.name, maskless);
+    if (!maskless.empty()) out.warning = maskless + "; all of the frame is used";
+  }
   system_.extract(input, out);
   if (!out.usable()) {
     if (why.empty()) why = entry.image + ": " + name(out.report.image);

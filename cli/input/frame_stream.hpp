@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/input/frame_reader.hpp"
+#include "cli/input/mask_source.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/system/system.hpp"
 
@@ -27,7 +28,7 @@ class FrameStream {
  public:
   // `pace`: seconds a unit of the stamps, to deliver frames as a camera would; 0: at once. The dataset and
   // the system outlive the stream.
-  FrameStream(const io::Dataset& dataset, System& system, double pace);
+  FrameStream(const io::Dataset& dataset, System& system, double pace, MaskSource masks = {});
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
@@ -48,6 +49,7 @@ class FrameStream {
   System& system_;
   double pace_;
   FrameReader reader_;
+  MaskSource masks_;
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();

@@ -9,13 +9,10 @@
 #include <utility>
 
 #include "cli/input/camera_choice.hpp"
+#include "cli/input/size_text.hpp"
 #include "cli/shell/messages.hpp"
 
 namespace sslam::cli {
-
-[[nodiscard]] inline std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
 
 class ImageCamera {
  public:

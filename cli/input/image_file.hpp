@@ -1,58 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens what io only lists: image files, checked for a lost end, and the frames of a video; writes images.
+// Opens what io only lists: image files, by their content and checked for a lost end, and the frames of a
+// video; writes images.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/input/image_header.hpp"
+#include "sslam/core/error.hpp"
 #include "sslam/io/datasets/dataset.hpp"
-#include "sslam/io/datasets/video.hpp"
-#include "sslam/io/files/files.hpp"
 
 namespace sslam::cli {
 
-// False when a JPEG or PNG has lost its end: the decoders fill the rest with grey and answer as if all were
-// well.
-[[nodiscard]] inline bool is_complete_image(const std::filesystem::path& path) {
-  constexpr std::streamoff kTail = 64;  // some writers pad after the end marker
-  const std::string extension = io::lower_case(path.extension().string());
-  const bool jpeg = extension == ".jpg" || extension == ".jpeg";
-  if (!jpeg && extension != ".png") return true;
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  if (size <= 0) return false;
-  file.seekg(std::max<std::streamoff>(0, size - kTail));
-  const std::string tail{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return tail.find(jpeg ? "\xff\xd9" : "IEND") != std::string::npos;
-}
+// Reads the file and what its bytes say of the image. False, with the reason in `why`, when there is nothing
+// to decode: the file is missing, has lost its end, or claims more pixels than anybody has; but `expected`
+// many are let in.
+[[nodiscard]] bool open_image(const std::filesystem::path& path, std::vector<std::uint8_t>& bytes,
+                              ImageHeader& header, std::string& why, cv::Size expected = {});
 
-// flags as cv::imread takes them. Empty, with the reason in `why`, when the file is missing, truncated or no
-// image.
-[[nodiscard]] inline cv::Mat load_image(const std::filesystem::path& path, int flags, std::string& why) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    why = path.string() + ": no such image";
-    return {};
-  }
-  if (!is_complete_image(path)) {
-    why = path.string() + ": truncated image";
-    return {};
-  }
-  cv::Mat image;
-  try {
-    image = cv::imread(path.string(), flags);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
-  if (image.empty()) why = path.string() + ": cannot decode this image";
-  return image;
-}
+// flags as cv::imread takes them; the pixels stay as they are stored. Empty, with the reason in `why`, when
+// the file is missing, truncated or no image.
+[[nodiscard]] cv::Mat load_image(const std::filesystem::path& path, int flags, std::string& why);
+
+// The same for a file that open_image has read.
+[[nodiscard]] cv::Mat decode_image(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes,
+                                   const ImageHeader& header, int flags, std::string& why);
 
 // As load_image, in the depth image's own type, with 0 for what was not measured.
 [[nodiscard]] inline cv::Mat load_depth(const std::filesystem::path& path, io::Layout layout,
@@ -79,12 +54,8 @@ inline void write_image(const std::filesystem::path& path, const cv::Mat& image,
   if (!written) throw Error(path.string() + ": cannot write this image");
 }
 
-// Opens the video once to learn how many frames it has. Throws Error when it cannot. Slice after this.
-inline void list_video_frames(io::Dataset& dataset) {
-  cv::VideoCapture video;
-  if (!video.open(dataset.root.string())) throw Error(dataset.root.string() + ": cannot open this video");
-  io::fill_video_frames(dataset, static_cast<std::int64_t>(video.get(cv::CAP_PROP_FRAME_COUNT)),
-                        video.get(cv::CAP_PROP_FPS));
-}
+// Asks the container which frames it has and when; at most `at_most` of them, if that is not negative. Throws
+// Error when it cannot be opened. Slice after this.
+void list_video_frames(io::Dataset& dataset, std::int64_t at_most = -1);
 
 }  // namespace sslam::cli

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/input/first_image.hpp"
 #include "cli/input/image_file.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
@@ -34,7 +35,7 @@ const Preset& choose_preset(const std::string& wanted) {
 
 io::Dataset open_run_dataset(const RunSettings& settings) {
   io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
+  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, settings.slice.end);
   io::apply_slice(dataset, settings.slice);
   print_warnings(dataset.warnings);
   return dataset;
@@ -42,19 +43,7 @@ io::Dataset open_run_dataset(const RunSettings& settings) {
 
 CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
   CameraChoice choice = choose_camera(settings.camera, dataset);
-  Camera<double>& camera = choice.camera;
-  if (camera.width > 0 && camera.height > 0) return choice;
-  if (dataset.layout == io::Layout::kVideo) {
-    cv::VideoCapture video(dataset.root.string());
-    camera.width = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
-    camera.height = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
-    return choice;
-  }
-  std::string why;
-  const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
-  if (first.empty()) throw Error(why + "; the camera's size is not known without it");
-  camera.width = first.cols;
-  camera.height = first.rows;
+  fit_camera_to_images(choice, dataset);
   return choice;
 }
 

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/shell/messages.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
 namespace sslam::cli {
 namespace {
@@ -21,10 +27,21 @@ std::string in_one_line(const std::string& text) {
 
 void print_message(const char* kind, const std::string& text) {
   if (message_form == MessageForm::kJson) return print_json({{"event", kind}, {"text", text}});
-  std::fprintf(stderr, "sslam: %s: %s\n", kind, in_one_line(text).c_str());
+  std::fprintf(message_stream(), "sslam: %s: %s\n", kind, in_one_line(text).c_str());
 }
 
 }  // namespace
+
+std::FILE* message_stream() {
+  static std::FILE* const stream = [] {
+    const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    std::FILE* const opened = copy < 0 ? nullptr : fdopen(copy, "w");
+    if (opened == nullptr) return stderr;
+    std::setvbuf(opened, nullptr, _IONBF, 0);
+    return opened;
+  }();
+  return stream;
+}
 
 void set_message_form(MessageForm form) {
   message_form = form;
@@ -43,14 +60,35 @@ void print_note(const std::string& text) {
 void print_json(const nlohmann::ordered_json& object) {
   // File names need not be UTF-8.
   const std::string line = object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::fprintf(stderr, "%s\n", line.c_str());
+  std::fprintf(message_stream(), "%s\n", line.c_str());
 }
 
 void print_warnings(std::span<const std::string> warnings, std::size_t at_most) {
-  const std::size_t shown = warnings.size() <= at_most ? warnings.size() : at_most - 1;
-  for (std::size_t i = 0; i < shown; ++i) print_warning(warnings[i]);
-  if (shown < warnings.size())
-    print_warning("and " + std::to_string(warnings.size() - shown) + " more like these");
+  struct Kind {
+    std::string_view text;
+    const std::string* first;
+    std::size_t count;
+  };
+  std::vector<Kind> kinds;
+  for (const std::string& warning : warnings) {
+    const std::size_t colon = warning.rfind(": ");
+    const std::string_view text =
+        colon == std::string::npos ? warning : std::string_view(warning).substr(colon);
+    const auto known =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.text == text; });
+    if (known == kinds.end())
+      kinds.push_back({text, &warning, 1});
+    else
+      ++known->count;
+  }
+  const std::size_t shown = kinds.size() <= at_most ? kinds.size() : at_most - 1;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::string more =
+        kinds[i].count > 1 ? " (and " + std::to_string(kinds[i].count - 1) + " more like this)" : "";
+    print_warning(*kinds[i].first + more);
+  }
+  if (shown < kinds.size())
+    print_warning("and warnings of " + std::to_string(kinds.size() - shown) + " more kinds");
 }
 
 }  // namespace sslam::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -14,6 +15,10 @@ enum class MessageForm {
   kJson,  // for programs: {"event":"warning","text":"..."}
 };
 
+// Where all messages go: standard error as it was at the first call. It stays when the libraries that decode
+// images are cut off from there.
+[[nodiscard]] std::FILE* message_stream();
+
 // Of all messages from now on.
 void set_message_form(MessageForm form);
 
@@ -23,7 +28,9 @@ void print_note(const std::string& text);
 // A line of its own, whatever the form of messages.
 void print_json(const nlohmann::ordered_json& object);
 
-// The first few in full, then a count: a thousand bad frames must not hide the line that matters.
+// One line a kind, with a count: a thousand bad frames must not hide the line that matters. Warnings that
+// differ in what stands before their last ": " alone, such as the file, are of one kind. At most so many
+// kinds.
 void print_warnings(std::span<const std::string> warnings, std::size_t at_most = 10);
 
 }  // namespace sslam::cli

@@ -23,7 +23,7 @@ std::string counts(const TrackResult<double>& result) {
 // Cut to what the terminal shows in one line: a wrapped line cannot be written over.
 std::string fitting(std::string line) {
   winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return line;
+  if (ioctl(fileno(message_stream()), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return line;
   std::size_t end = std::min<std::size_t>(line.size(), size.ws_col - 1U);
   while (end > 0 && end < line.size() && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
   line.resize(end);
@@ -33,7 +33,10 @@ std::string fitting(std::string line) {
 }  // namespace
 
 Progress::Progress(std::size_t total, Verbosity verbosity, std::string task)
-    : total_(total), verbosity_(verbosity), task_(std::move(task)), terminal_(isatty(STDERR_FILENO) != 0) {
+    : total_(total),
+      verbosity_(verbosity),
+      task_(std::move(task)),
+      terminal_(isatty(fileno(message_stream())) != 0) {
   if (verbosity_ == Verbosity::kJson) print_json({{"event", "start"}, {"task", task_}, {"total", total_}});
 }
 
@@ -86,7 +89,7 @@ void Progress::tell_event(const FrameReport& frame) {
   if (r.reason != Reason::kFine) text += std::string(", ") + name(r.reason);
   if (r.has_pose()) text += " (" + counts(r) + ")";
   clear_line();
-  std::fprintf(stderr, "%s\n", text.c_str());
+  std::fprintf(message_stream(), "%s\n", text.c_str());
 }
 
 void Progress::renew_line(const std::string& detail) {
@@ -108,15 +111,15 @@ void Progress::print_line(const std::string& detail) {
   std::snprintf(head, sizeof head, "%zu/%zu [%s] %5.1f frames/s  ", done_, total_, bar.c_str(), rate);
   const std::string line = head + detail;
   if (terminal_)
-    std::fprintf(stderr, "\r%s\033[K", fitting(line).c_str());
+    std::fprintf(message_stream(), "\r%s\033[K", fitting(line).c_str());
   else
-    std::fprintf(stderr, "%s\n", line.c_str());
-  std::fflush(stderr);
+    std::fprintf(message_stream(), "%s\n", line.c_str());
+  std::fflush(message_stream());
   open_line_ = terminal_;
 }
 
 void Progress::clear_line() {
-  if (open_line_) std::fputs("\r\033[K", stderr);
+  if (open_line_) std::fputs("\r\033[K", message_stream());
   open_line_ = false;
 }
 
@@ -125,7 +128,7 @@ void Progress::finish() {
   if (verbosity_ == Verbosity::kJson)
     print_json(
         {{"event", "end"}, {"task", task_}, {"done", done_}, {"total", total_}, {"seconds", seconds()}});
-  if (open_line_) std::fputc('\n', stderr);
+  if (open_line_) std::fputc('\n', message_stream());
   open_line_ = false;
 }
 

@@ -9,6 +9,7 @@
 #include "sslam/opencv/camera/undistorter.hpp"
 #include "sslam/opencv/image_frontend.hpp"
 #include "sslam/opencv/image_input.hpp"
+#include "sslam/opencv/image_mask.hpp"
 #include "sslam/opencv/lines/line_extractor.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"
 #include "sslam/opencv/normals/file_normals.hpp"

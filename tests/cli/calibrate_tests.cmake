@@ -11,7 +11,7 @@ sslam_cli_test(NAME "calibrate without a board" ARGS calibrate ${image} --out ${
 sslam_cli_test(NAME "calibrate of nothing" ARGS calibrate ${folder}/none CODE 1 ERR "^sslam: error: [^\n]*none: no such file or folder\n$")
 sslam_cli_test(NAME "calibrate of an empty folder" ARGS calibrate ${folder}/empty CODE 1 ERR "^sslam: error: [^\n]*empty: the folder is empty")
 sslam_cli_test(NAME "calibrate of a broken image" ARGS calibrate ${folder}/text.png --out ${folder}/camera.yaml CODE 1
-               ERR "sslam: error: [^\n]*text.png: truncated image\n$")
+               ERR "sslam: error: [^\n]*text.png: cannot decode this image\n$")
 sslam_cli_test(NAME "calibrate below a file" ARGS calibrate ${image} --out ${folder}/file/camera.yaml CODE 1
                ERR "^sslam: error: [^\n]*file: cannot make this folder")
 sslam_cli_test(NAME "calibrate with more markers than codes" ARGS calibrate ${image} --pattern charuco --size 20x20 CODE 1

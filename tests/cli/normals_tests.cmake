@@ -37,7 +37,7 @@ sslam_normals_refuses("nothing" "nowhere: no such file or folder" ${folder}/nowh
 sslam_normals_refuses("an empty folder" "empty: the folder is empty" ${folder}/empty ${tiny})
 sslam_normals_refuses("a folder without images" "papers: no dataset here" ${folder}/papers ${tiny})
 sslam_normals_refuses("another file" "notes.txt: is neither an image" ${folder}/papers/notes.txt ${tiny})
-sslam_normals_refuses("a broken image" "text.png: truncated image" ${folder}/text.png ${tiny} --out ${folder}/none)
+sslam_normals_refuses("a broken image" "text.png: cannot decode this image" ${folder}/text.png ${tiny} --out ${folder}/none)
 sslam_normals_refuses("a glob that matches nothing" "no image matches" ${folder}/*.bmp ${tiny})
 sslam_normals_refuses("an image of another camera" "room.jpg: has 320x240 pixels, and the camera 640x480"
                       ${fixtures}/room.jpg ${tiny} --camera icl_nuim --out ${folder}/none)

@@ -210,6 +210,54 @@ TEST_CASE("run goes on over a single bad frame and names it") {
   REQUIRE(outcome.text.find("000030.jpg: truncated image; frame skipped") != std::string::npos);
 }
 
+TEST_CASE("run tells many bad frames of one kind in one line, and decoders tell nothing") {
+  const Copy copy;
+  const std::string bytes = text_of(copy.folder / "rgb/000030.jpg");
+  for (const char* name : {"rgb/000030.jpg", "rgb/000032.jpg", "rgb/000034.jpg"})
+    write(copy.folder / name, bytes.substr(0, bytes.size() / 2));
+  // A whole file whose pixels are damaged: libjpeg would complain.
+  write(copy.folder / "rgb/000036.jpg", bytes.substr(0, bytes.size() / 2) + "\xff\xd9");
+  const Outcome outcome = copy.run();
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("000030.jpg: truncated image; frame skipped (and 2 more like this)") !=
+          std::string::npos);
+  REQUIRE(outcome.text.find("000032.jpg") == std::string::npos);
+  REQUIRE(outcome.text.find("Corrupt") == std::string::npos);
+  REQUIRE(copy.metrics()["warnings"].size() == 3);
+}
+
+TEST_CASE("a camera for images of another size, or turned, gets one line before the first frame") {
+  const Copy copy;
+  const auto refused = [&](const std::string& size, const std::string& what) {
+    const fs::path camera = copy.scratch.path() / "other.yaml";
+    write(camera, "%YAML:1.0\n---\nCamera.fx: 360\nCamera.fy: 360\nCamera.cx: 180\nCamera.cy: 180\n" + size);
+    require_refused(copy.run("--camera " + camera.string()), what);
+    REQUIRE_FALSE(fs::exists(copy.out / "frames.csv"));
+  };
+  refused("Camera.width: 640\nCamera.height: 400\n",
+          "000000.jpg: has 480x360 pixels, and the camera 640x400");
+  refused("Camera.width: 360\nCamera.height: 480\n", "turned by 90 degrees");
+}
+
+TEST_CASE("a mask takes parts of the image out, and one that does not do is refused") {
+  const Copy copy;
+  const fs::path mask = copy.scratch.path() / "mask.png";
+  cv::Mat pixels(360, 480, CV_8UC1, cv::Scalar(255));
+  pixels.rowRange(180, 360).setTo(0);
+  REQUIRE(cv::imwrite(mask.string(), pixels));
+  const Outcome masked = copy.run("--mask " + mask.string());
+  INFO(masked.text);
+  REQUIRE(masked.code == 0);
+  REQUIRE(cv::imwrite(mask.string(), cv::Mat::zeros(360, 480, CV_8UC1)));
+  require_refused(copy.run("--mask " + mask.string()), "mask.png: leaves every pixel out");
+  REQUIRE(cv::imwrite(mask.string(), cv::Mat::ones(48, 64, CV_8UC1)));
+  require_refused(copy.run("--mask " + mask.string()),
+                  "mask.png: the mask has 64x48 pixels, and the images 480x360");
+  require_refused(copy.run("--mask " + (copy.scratch.path() / "none.png").string()),
+                  "none.png: no such image");
+}
+
 TEST_CASE("run goes on over an image of another size and names it") {
   const Copy copy;
   const ScratchFolder other;
@@ -221,7 +269,7 @@ TEST_CASE("run goes on over an image of another size and names it") {
   const Outcome outcome = copy.run();
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
-  REQUIRE(outcome.text.find("000030.jpg: the image does not have the camera's size; frame skipped") !=
+  REQUIRE(outcome.text.find("000030.jpg: has 64x48 pixels, and the camera 480x360; frame skipped") !=
           std::string::npos);
 }
 

@@ -105,6 +105,36 @@ TEST_CASE("images that do not fit are named and leave the frame alone") {
   CHECK(frame.index == 7);
 }
 
+TEST_CASE("what a mask leaves out gives no points, no lines and no normals from depth") {
+  ImageFrontend<DepthNormals> frontend;
+  frontend.camera = frontend_camera();
+  ImageInput input = scene();
+  Frame<double> all, some;
+  REQUIRE(frontend.process(input, all).image == ImageStatus::kOk);
+  // The right half is out: it cuts the box and its texture.
+  input.mask = cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(1));
+  input.mask.colRange(kWidth / 2, kWidth).setTo(0);
+  REQUIRE(frontend.process(input, some).image == ImageStatus::kOk);
+  const double border = kWidth / 2;
+  CHECK(some.points.size() > 20);
+  CHECK(some.lines.size() >= 2);
+  CHECK(
+      std::any_of(all.points.begin(), all.points.end(), [&](const auto& p) { return p.pixel.x() > border; }));
+  for (const auto& point : some.points) CHECK(point.pixel.x() < border - 4);
+  for (const auto& line : some.lines) {
+    CHECK(line.segment.start.x() < border);
+    CHECK(line.segment.end.x() < border);
+    CHECK(line.segment.midpoint().x() < border - 4);  // the mask's own border is no line
+  }
+  CHECK(some.normals.size() < all.normals.size() * 6 / 10);
+  CHECK(some.normals.size() > all.normals.size() * 4 / 10);
+  input.mask.setTo(255);
+  REQUIRE(frontend.process(input, some).image == ImageStatus::kOk);
+  CHECK(same(all, some));
+  input.mask = cv::Mat(240, 320, CV_8UC1, cv::Scalar(1));
+  CHECK(frontend.process(input, some).image == ImageStatus::kWrongMask);
+}
+
 TEST_CASE("missing depth costs the normals and nothing else") {
   ImageFrontend<DepthNormals> frontend;
   frontend.camera = frontend_camera();

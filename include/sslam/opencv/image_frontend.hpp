@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -12,6 +13,7 @@
 
 #include "sslam/map/frame.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
+#include "sslam/opencv/image_mask.hpp"
 #include "sslam/opencv/lines/line_extractor.hpp"
 #include "sslam/opencv/normals/no_normals.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
@@ -25,6 +27,7 @@ enum class ImageStatus : std::uint8_t {
   kEmpty,      // no pixels: the file could not be decoded
   kWrongSize,  // not the camera's width and height
   kWrongType,  // not 8 bit with one, three or four channels
+  kWrongMask,  // not 8 bit with one channel, of the image's size
 };
 
 [[nodiscard]] constexpr const char* name(ImageStatus status) noexcept {
@@ -37,6 +40,8 @@ enum class ImageStatus : std::uint8_t {
       return "the image does not have the camera's size";
     case ImageStatus::kWrongType:
       return "the image is not 8 bit grey, BGR or BGRA";
+    case ImageStatus::kWrongMask:
+      return "the mask is not 8 bit grey of the image's size";
   }
   return "unknown";
 }
@@ -62,8 +67,11 @@ class ImageFrontend {
     FrontendReport report;
     const Clock start;
     report.image = to_grey(input.image);
+    if (report.image == ImageStatus::kOk && !mask_.set(input.mask, grey_.size()))
+      report.image = ImageStatus::kWrongMask;
     report.grey_time = start.seconds();
     if (report.image != ImageStatus::kOk) return report;
+    mask_.flatten(grey_);
     frame.index = input.index;
     frame.stamp = input.stamp;
     frame.pinhole = camera.pinhole;
@@ -73,7 +81,7 @@ class ImageFrontend {
       const Clock clock;
       extract_points(frame);
       report.points_time = clock.seconds();
-      report.normals = normals.fill(input, camera, frame.normals);
+      report.normals = fill_normals(input, frame.normals);
       report.normals_time = clock.seconds() - report.points_time;
     };
     const auto only_lines = [&] {
@@ -123,6 +131,12 @@ class ImageFrontend {
 
   void extract_points(Frame<double>& frame) {
     points.extract(grey_, frame.points);
+    if (mask_.active()) {
+      std::erase_if(frame.points, [&](const PointFeature<double>& point) {
+        constexpr double kReach = 5;  // of a corner and its refinement, pixels of its level
+        return mask_.distance(point.pixel) <= kReach * point.sigma / points.options.sigma;
+      });
+    }
     if (camera.distortion.is_identity()) return;
     std::erase_if(frame.points, [&](PointFeature<double>& point) {
       point.pixel = camera.undistort_pixel(point.pixel);
@@ -134,12 +148,41 @@ class ImageFrontend {
   // there is no evidence.
   void extract_lines(Frame<double>& frame) {
     lines.extract(undistorter_.undistort(grey_, camera), frame.lines);
+    if (mask_.active()) {
+      std::erase_if(frame.lines, [&](const LineFeature<double>& line) { return is_masked(line.segment); });
+    }
     if (camera.distortion.is_identity()) return;
     std::erase_if(frame.lines, [&](const LineFeature<double>& line) {
       const double border = lines.options.border;
       return !seen(line.segment.start, border) || !seen(line.segment.end, border) ||
              !seen(line.segment.midpoint(), border);
     });
+  }
+
+  // A line that runs along the border of what is left out is that border; one that ends there was cut off by
+  // it, and stays.
+  [[nodiscard]] bool is_masked(const Segment2<double>& segment) const {
+    constexpr double kStep = 2, kReach = 4;  // pixels
+    const auto steps = static_cast<int>(std::ceil((segment.end - segment.start).norm() / kStep));
+    int near = 0;
+    for (int i = 0; i <= steps; ++i) {
+      const double share = steps > 0 ? static_cast<double>(i) / steps : 0;
+      const Vec2<double> undistorted = segment.start + share * (segment.end - segment.start);
+      const double distance = mask_.distance(camera.distort_pixel(undistorted));
+      if (distance == 0) return true;
+      near += distance <= kReach ? 1 : 0;
+    }
+    return 2 * near > steps + 1;
+  }
+
+  // Depth of what is left out gives no normals. Networks look at the whole image.
+  [[nodiscard]] NormalStatus fill_normals(const ImageInput& input, NormalField& field) {
+    if (!mask_.active() || input.depth.size() != input.image.size())
+      return normals.fill(input, camera, field);
+    ImageInput seen = input;
+    seen.depth = input.depth.clone();
+    mask_.erase_depth(seen.depth);
+    return normals.fill(seen, camera, field);
   }
 
   // Whether the lens sees this undistorted pixel, `border` or more pixels inside its image. The way back
@@ -152,6 +195,7 @@ class ImageFrontend {
   }
 
   Undistorter undistorter_;
+  ImageMask mask_;
   cv::Mat grey_;
   std::unique_ptr<SideThread> side_;  // where the points are found
 };

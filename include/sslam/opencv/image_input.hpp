@@ -13,6 +13,7 @@ struct ImageInput {
   double stamp = 0;            // seconds
   std::string name;            // of the image file, without folder and extension: finds stored normals
   cv::Mat image;               // 8 bit: grey, BGR or BGRA
+  cv::Mat mask;                // 8 bit, of the image's size; 0: no points and lines there; empty: all is used
   cv::Mat depth;               // registered to the image; 16 bit or float; 0: no measurement; empty: none
   double depth_factor = 5000;  // value of one metre in a 16 bit depth image; float depth is in metres
 };

@@ -14,6 +14,7 @@ enum class InputStatus : std::uint8_t {
   kEmptyImage,
   kWrongSize,
   kWrongType,
+  kWrongMask,
   kBadStamp,  // not finite, or not later than that of the frame before
   kFinished,  // after finish()
 };
@@ -28,6 +29,8 @@ enum class InputStatus : std::uint8_t {
       return InputStatus::kWrongSize;
     case ImageStatus::kWrongType:
       return InputStatus::kWrongType;
+    case ImageStatus::kWrongMask:
+      return InputStatus::kWrongMask;
   }
   return InputStatus::kEmptyImage;
 }
@@ -42,6 +45,8 @@ enum class InputStatus : std::uint8_t {
       return name(ImageStatus::kWrongSize);
     case InputStatus::kWrongType:
       return name(ImageStatus::kWrongType);
+    case InputStatus::kWrongMask:
+      return name(ImageStatus::kWrongMask);
     case InputStatus::kBadStamp:
       return "the stamp is not later than that of the frame before";
     case InputStatus::kFinished:

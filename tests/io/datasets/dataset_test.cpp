@@ -284,7 +284,18 @@ TEST_CASE("Videos are told by their name and filled in by who opens them") {
   REQUIRE(dataset.frames.size() == 5);
   CHECK(dataset.frames[4].stamp == Approx(0.16));
   CHECK(contains(error_of([&] { io::fill_video_frames(dataset, 0, 25); }), "holds no frame"));
-  CHECK(contains(error_of([&] { io::fill_video_frames(dataset, 5, 0); }), "no frame rate"));
+  CHECK(contains(error_of([&] { io::fill_video_frames(dataset, 5, 0); }), "neither times nor a frame rate"));
+
+  const std::vector<double> times{4, 4.5, 4.5, 6};
+  io::fill_video_frames(dataset, times);
+  REQUIRE(dataset.frames.size() == 3);
+  CHECK(dataset.frames[0].stamp == 0);
+  CHECK(dataset.frames[2].stamp == 2);
+  CHECK(dataset.frames[2].index == 3);
+  CHECK(dataset.video_start == 4);
+  REQUIRE(dataset.warnings.size() == 1);
+  CHECK(contains(dataset.warnings[0], "1 frames have the time of the frame before: left out"));
+  for (const char* name : {"a.3gp", "a.ts", "a.m2ts", "a.gif"}) CHECK(io::is_video_name(name));
 }
 
 TEST_CASE("What is no dataset is told what was looked for") {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,12 +34,13 @@ struct FrameEntry {
 
 struct Dataset {
   Layout layout = Layout::kImages;
-  std::filesystem::path root;      // folder of the sequence, or the video
-  std::vector<FrameEntry> frames;  // increasing stamps; empty for a video until fill_video_frames
-  Trajectory ground_truth;         // all of it, on its own clock, in our camera axes; empty: none
-  std::string truth_problem;       // why the ground truth that lies there is not used
-  double seconds_per_stamp = 1;    // ICL-NUIM stamps count frames
-  std::string name_hint;           // text that may name the recording, for the built-in calibrations
+  std::filesystem::path root;         // folder of the sequence, or the video
+  std::vector<FrameEntry> frames;     // increasing stamps; empty for a video until fill_video_frames
+  Trajectory ground_truth;            // all of it, on its own clock, in our camera axes; empty: none
+  std::string truth_problem;          // why the ground truth that lies there is not used
+  std::optional<double> video_start;  // time of a video's first frame on its own clock; empty: it has none
+  double seconds_per_stamp = 1;       // ICL-NUIM stamps count frames
+  std::string name_hint;              // text that may name the recording, for the built-in calibrations
   Warnings warnings;
 
   // The ground truth of a frame; null: none.

@@ -33,8 +33,9 @@ namespace sslam::io {
 }
 
 [[nodiscard]] inline bool is_video_name(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 10> kVideos{".mp4", ".avi",  ".mkv", ".mov", ".webm",
-                                                     ".m4v", ".mpeg", ".mpg", ".ogv", ".wmv"};
+  constexpr std::array<std::string_view, 16> kVideos{".mp4",  ".avi",  ".mkv", ".mov", ".webm", ".m4v",
+                                                     ".mpeg", ".mpg",  ".ogv", ".wmv", ".3gp",  ".ts",
+                                                     ".mts",  ".m2ts", ".gif", ".flv"};
   return has_extension(path, kVideos);
 }
 

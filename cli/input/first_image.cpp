@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/input/first_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "cli/input/frame_reader.hpp"
+#include "cli/input/image_file.hpp"
+#include "cli/input/size_text.hpp"
+#include "cli/shell/messages.hpp"
+#include "sslam/core/error.hpp"
+
+namespace sslam::cli {
+namespace {
+
+struct FirstImage {
+  std::string name;
+  cv::Size stored;  // empty: no image can be read
+  ImageTurn turn = kUpright;
+  std::string why;  // of the first that cannot be read
+};
+
+FirstImage find_first_image(const io::Dataset& dataset, cv::Size camera) {
+  constexpr std::size_t kTries = 10;
+  FirstImage first;
+  if (dataset.layout == io::Layout::kVideo) {
+    const VideoInfo info = VideoReader(dataset.root).info();
+    return {dataset.root.string(), info.size, info.turn, {}};
+  }
+  for (std::size_t i = 0; i < std::min(kTries, dataset.frames.size()); ++i) {
+    first.name = dataset.frames[i].image;
+    std::vector<std::uint8_t> bytes;
+    ImageHeader header;
+    std::string why;
+    if (open_image(first.name, bytes, header, why, camera)) {
+      if (header.size.empty())
+        header.size = decode_image(first.name, bytes, header, cv::IMREAD_COLOR, why).size();
+      first.stored = header.size;
+      first.turn = header.turn;
+      if (!first.stored.empty()) return first;
+    }
+    if (first.why.empty()) first.why = why;
+  }
+  return first;
+}
+
+// How far the principal point is from the middle of such an image, as a share of it.
+double off_centre(const Pinhole<double>& pinhole, cv::Size size) {
+  return std::max(std::abs(pinhole.cx / size.width - 0.5), std::abs(pinhole.cy / size.height - 0.5));
+}
+
+// A calibration without a size is of the stored or of the turned pixels: its principal point is near the
+// middle.
+cv::Size size_by_centre(const Pinhole<double>& pinhole, const FirstImage& first) {
+  const cv::Size upright = turned_size(first.stored, first.turn);
+  return off_centre(pinhole, upright) < off_centre(pinhole, first.stored) ? upright : first.stored;
+}
+
+void check_sizes(const FirstImage& first, ImageTurn used, cv::Size camera, const std::string& source) {
+  const cv::Size size = turned_size(first.stored, used);
+  if (size == camera) return;
+  std::string text = wrong_size(first.name, size, camera) + " (" + source + ")";
+  if (first.turn != kUpright)
+    text += std::string("; shown ") + turn_text(first.turn) + ", they are " +
+            size_text(turned_size(first.stored, first.turn));
+  const bool sideways = size.width == camera.height && size.height == camera.width;
+  throw Error(text + (sideways ? "; the calibration is for images turned by 90 degrees"
+                               : "; give the calibration of images of this size"));
+}
+
+void tell_turn(const FirstImage& first, ImageTurn used) {
+  if (first.turn == kUpright) return;
+  if (used == first.turn)
+    print_note(first.name + ": images are " + turn_text(used) + ", as the file's orientation tag asks");
+  else
+    print_note(first.name + ": the orientation tag (" + turn_text(first.turn) +
+               ") is ignored: the calibration is for the pixels as they are stored");
+}
+
+void tell_range(const io::Dataset& dataset, cv::Size camera) {
+  if (dataset.layout == io::Layout::kVideo) return;
+  FrameReader reader(dataset, camera);
+  std::string ignored;
+  (void)reader.read(dataset.frames.front(), ignored);
+  if (reader.range())
+    print_note(dataset.frames.front().image + ": 16 bit images: values from " + reader.range()->text() +
+               ", found in the first frames, become black to white");
+}
+
+}  // namespace
+
+void fit_camera_to_images(CameraChoice& choice, const io::Dataset& dataset) {
+  Camera<double>& camera = choice.camera;
+  const cv::Size claimed(camera.width, camera.height);
+  const FirstImage first = find_first_image(dataset, claimed);
+  if (first.stored.empty()) {
+    if (claimed.empty()) throw Error(first.why + "; the camera's size is not known without it");
+    return;  // each frame tells
+  }
+  const cv::Size size = claimed.empty() ? size_by_centre(camera.pinhole, first) : claimed;
+  const ImageTurn used =
+      turn_for_camera(first.stored, first.turn, size, dataset.layout == io::Layout::kVideo);
+  check_sizes(first, used, size, choice.source);
+  camera.width = size.width;
+  camera.height = size.height;
+  tell_turn(first, used);
+  tell_range(dataset, size);
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/input/image_file.hpp"
+
+#include <fstream>
+#include <system_error>
+
+#include "cli/input/image_limit.hpp"
+#include "cli/input/quiet_decoders.hpp"
+#include "cli/input/size_text.hpp"
+#include "cli/input/video_reader.hpp"
+#include "sslam/io/datasets/video.hpp"
+
+namespace sslam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_too_large(const ImageHeader& header, cv::Size expected) {
+  return header.size != expected &&
+         static_cast<std::int64_t>(header.size.width) * header.size.height > kMostPixels;
+}
+
+}  // namespace
+
+bool open_image(const fs::path& path, std::vector<std::uint8_t>& bytes, ImageHeader& header, std::string& why,
+                cv::Size expected) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    why = path.string() + ": no such image";
+    return false;
+  }
+  bytes.resize(static_cast<std::size_t>(fs::file_size(path, error)));
+  std::ifstream file(path, std::ios::binary);
+  if (error ||
+      !file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+    why = path.string() + ": cannot read this image";
+    return false;
+  }
+  header = read_image_header(bytes);
+  if (!header.complete || bytes.empty()) {
+    why = path.string() + ": truncated image";
+    return false;
+  }
+  if (is_too_large(header, expected)) {
+    why = path.string() + ": claims " + size_text(header.size) + " pixels, more than " +
+          std::to_string(kMostPixels / 1'000'000) + " million; a camera file with this size lets it in";
+    return false;
+  }
+  return true;
+}
+
+cv::Mat decode_image(const fs::path& path, const std::vector<std::uint8_t>& bytes, const ImageHeader& header,
+                     int flags, std::string& why) {
+  cv::Mat image;
+  try {
+    const QuietDecoders quiet;
+    image =
+        cv::imdecode(bytes, flags == cv::IMREAD_UNCHANGED ? flags : flags | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    image.release();
+  }
+  if (!image.empty()) return image;
+  why = path.string() + ": cannot decode this image";
+  if (header.format == ImageFormat::kHeif) why += ": it is HEIC or AVIF; convert it to JPEG or PNG";
+  return image;
+}
+
+cv::Mat load_image(const fs::path& path, int flags, std::string& why) {
+  std::vector<std::uint8_t> bytes;
+  ImageHeader header;
+  if (!open_image(path, bytes, header, why)) return {};
+  return decode_image(path, bytes, header, flags, why);
+}
+
+void list_video_frames(io::Dataset& dataset, std::int64_t at_most) {
+  const VideoInfo info = VideoReader(dataset.root).info();
+  const VideoTimes found = read_video_times(dataset.root, at_most);
+  if (found.times.empty())
+    io::fill_video_frames(dataset, found.frames, info.frame_rate);
+  else
+    io::fill_video_frames(dataset, found.times);
+  if (found.whole && found.frames < info.claimed)
+    dataset.warnings.push_back(dataset.root.string() + ": claims " + std::to_string(info.claimed) +
+                               " frames; " + std::to_string(found.frames) + " are there");
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/input/video_reader.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include "cli/input/image_limit.hpp"
+#include "sslam/core/error.hpp"
+
+namespace sslam::cli {
+namespace {
+
+template <auto kFree>
+struct Freed {
+  template <class T>
+  void operator()(T* object) const {
+    kFree(&object);
+  }
+};
+using FormatHandle = std::unique_ptr<AVFormatContext, Freed<avformat_close_input>>;
+using CodecHandle = std::unique_ptr<AVCodecContext, Freed<avcodec_free_context>>;
+using PacketHandle = std::unique_ptr<AVPacket, Freed<av_packet_free>>;
+using FrameHandle = std::unique_ptr<AVFrame, Freed<av_frame_free>>;
+
+// Decoders talk of every flaw that they meet. OpenCV's writer sets FFmpeg's level of talk, but no callback.
+void silence() {
+  av_log_set_callback([](void*, int, const char*, va_list) {});
+}
+
+// A container and the one stream in it that is looked at.
+struct VideoContainer {
+  FormatHandle format;
+  AVStream* stream = nullptr;
+  const AVCodec* decoder = nullptr;
+};
+
+VideoContainer open_container(const std::filesystem::path& file) {
+  silence();
+  VideoContainer opened;
+  AVFormatContext* format = nullptr;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);  // a playlist must not lead into the network
+  const int code = avformat_open_input(&format, ("file:" + file.string()).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  opened.format.reset(format);
+  if (code < 0 || avformat_find_stream_info(format, nullptr) < 0)
+    throw Error(file.string() + ": cannot open this video; expected mp4, avi, mkv, webm or the like, whole");
+  const int best = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &opened.decoder, 0);
+  if (best == AVERROR_DECODER_NOT_FOUND)
+    throw Error(file.string() + ": there is no decoder for this video here; convert it to H.264");
+  if (best < 0)
+    throw Error(file.string() + ": cannot open this video: it holds sound or data, but no pictures");
+  opened.stream = format->streams[best];
+  for (unsigned i = 0; i < format->nb_streams; ++i)
+    if (format->streams[i] != opened.stream) format->streams[i]->discard = AVDISCARD_ALL;
+  return opened;
+}
+
+// The next packet with pictures; false at the end. VP8 hides pictures that only serve others.
+bool next_packet(const VideoContainer& container, AVPacket& packet) {
+  while (av_read_frame(container.format.get(), &packet) >= 0) {
+    if (packet.stream_index == container.stream->index && packet.size > 0) return true;
+    av_packet_unref(&packet);
+  }
+  return false;
+}
+
+bool is_shown(const VideoContainer& container, const AVPacket& packet) {
+  constexpr std::uint8_t kShownVp8 = 0x10;
+  if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;
+  return container.stream->codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & kShownVp8) != 0;
+}
+
+double container_seconds(std::int64_t stamp, const AVStream& stream) {
+  return static_cast<double>(stamp) * av_q2d(stream.time_base);
+}
+
+// The matrix takes stored pixels (x right, y down) to displayed ones; its signs say which of eight it is.
+ImageTurn turn_of(const AVStream& stream) {
+  const auto* matrix = reinterpret_cast<const std::int32_t*>(
+      av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
+  if (matrix == nullptr) return kUpright;
+  const std::int32_t a = matrix[0], b = matrix[1], c = matrix[3], d = matrix[4];
+  if (a != 0 && d != 0 && b == 0 && c == 0) return a > 0 ? (d > 0 ? 1 : 4) : (d > 0 ? 2 : 3);
+  if (b != 0 && c != 0 && a == 0 && d == 0) return b > 0 ? (c > 0 ? 5 : 6) : (c > 0 ? 8 : 7);
+  return kUpright;
+}
+
+}  // namespace
+
+struct VideoReader::Parts {
+  VideoContainer container;
+  CodecHandle codec;
+  PacketHandle packet{av_packet_alloc()};
+  FrameHandle frame{av_frame_alloc()};
+  SwsContext* scaler = nullptr;
+  bool drained = false;
+  VideoInfo info;
+
+  Parts() = default;
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() { sws_freeContext(scaler); }
+};
+
+VideoReader::VideoReader(const std::filesystem::path& file) : parts_(std::make_unique<Parts>()) {
+  Parts& p = *parts_;
+  p.container = open_container(file);
+  AVStream& stream = *p.container.stream;
+  p.codec.reset(avcodec_alloc_context3(p.container.decoder));
+  if (!p.codec || avcodec_parameters_to_context(p.codec.get(), stream.codecpar) < 0)
+    throw Error(file.string() + ": cannot open this video");
+  constexpr int kMostThreads = 8;  // each keeps frames of its own
+  p.codec->thread_count = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+  p.codec->max_pixels = kMostPixels;
+  p.codec->pkt_timebase = stream.time_base;
+  if (avcodec_open2(p.codec.get(), p.container.decoder, nullptr) < 0)
+    throw Error(file.string() + ": cannot open this video: its decoder does not take it");
+  p.info.size = {stream.codecpar->width, stream.codecpar->height};
+  p.info.turn = turn_of(stream);
+  p.info.claimed = stream.nb_frames;
+  const AVRational rate = av_guess_frame_rate(p.container.format.get(), &stream, nullptr);
+  if (rate.num > 0 && rate.den > 0) p.info.frame_rate = av_q2d(rate);
+}
+
+VideoReader::~VideoReader() = default;
+
+const VideoInfo& VideoReader::info() const noexcept {
+  return parts_->info;
+}
+
+bool VideoReader::advance() {
+  Parts& p = *parts_;
+  for (;;) {
+    const int got = avcodec_receive_frame(p.codec.get(), p.frame.get());
+    if (got >= 0) return true;
+    if (got == AVERROR_EOF || p.drained) return false;
+    if (next_packet(p.container, *p.packet)) {
+      (void)avcodec_send_packet(p.codec.get(), p.packet.get());  // one that it refuses is passed over
+      av_packet_unref(p.packet.get());
+    } else {
+      p.drained = avcodec_send_packet(p.codec.get(), nullptr) < 0;
+    }
+  }
+}
+
+std::optional<double> VideoReader::time() const {
+  const std::int64_t stamp = parts_->frame->best_effort_timestamp;
+  if (stamp == AV_NOPTS_VALUE) return std::nullopt;
+  return container_seconds(stamp, *parts_->container.stream);
+}
+
+cv::Mat VideoReader::image() {
+  Parts& p = *parts_;
+  const AVFrame& frame = *p.frame;
+  p.scaler = sws_getCachedContext(p.scaler, frame.width, frame.height,
+                                  static_cast<AVPixelFormat>(frame.format), frame.width, frame.height,
+                                  AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr);
+  if (p.scaler == nullptr) return {};
+  // swscale writes whole blocks: rows with room behind them, cut off afterwards.
+  constexpr int kBlock = 64;
+  cv::Mat image(frame.height, (frame.width + kBlock - 1) / kBlock * kBlock, CV_8UC3);
+  std::uint8_t* const rows[] = {image.data};
+  const int strides[] = {static_cast<int>(image.step)};
+  sws_scale(p.scaler, frame.data, frame.linesize, 0, frame.height, rows, strides);
+  return image.colRange(0, frame.width).clone();
+}
+
+VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_most) {
+  const VideoContainer container = open_container(file);
+  const AVStream& stream = *container.stream;
+  constexpr std::int64_t kReordered =
+      32;  // packets come in order of decoding: more than any codec puts aside
+  const PacketHandle packet(av_packet_alloc());
+  VideoTimes found;
+  bool timed = true;
+  while (found.whole && next_packet(container, *packet)) {
+    if (is_shown(container, *packet)) {
+      ++found.frames;
+      timed = timed && packet->pts != AV_NOPTS_VALUE;
+      if (timed) found.times.push_back(container_seconds(packet->pts, stream));
+      found.whole = at_most < 0 || found.frames < at_most + kReordered;
+    }
+    av_packet_unref(packet.get());
+  }
+  if (!timed) found.times.clear();
+  std::sort(found.times.begin(), found.times.end());
+  if (at_most >= 0 && found.frames > at_most) {
+    found.frames = at_most;
+    found.times.resize(std::min(found.times.size(), static_cast<std::size_t>(at_most)));
+  }
+  return found;
+}
+
+}  // namespace sslam::cli
