@@ -3,8 +3,14 @@
 #pragma once
 
 #include "sslam/opencv/camera/camera_file.hpp"
+#include "sslam/opencv/camera/camera_keys.hpp"
+#include "sslam/opencv/camera/camera_rows.hpp"
+#include "sslam/opencv/camera/camera_trees.hpp"
 #include "sslam/opencv/camera/lens_table.hpp"
+#include "sslam/opencv/camera/lens_words.hpp"
 #include "sslam/opencv/camera/same_camera.hpp"
+#include "sslam/opencv/camera/text_node.hpp"
+#include "sslam/opencv/camera/text_tree.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
 #include "sslam/opencv/image_frontend.hpp"
 #include "sslam/opencv/image_input.hpp"
