@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/input/camera_options.hpp"
+#include "cli/input/image_camera.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
 #include "cli/results/run_report.hpp"
@@ -58,6 +60,7 @@ void run(RunSettings settings) {
   if (!settings.map.empty()) known = io::load_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
+  print_notes(camera);
   check_normals(settings, dataset, camera.depth_factor);
   wanted.camera = camera.camera;
   wanted.depth_factor = camera.depth_factor;
@@ -112,10 +115,7 @@ void add_run_command(CLI::App& app) {
           "dataset", s->dataset,
           "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
       ->required();
-  command
-      ->add_option("--camera", s->camera,
-                   "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names())
-      ->type_name("FILE");
+  add_camera_options(*command, s->camera, s->focal, s->fov);
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   std::string presets = "What the pipeline is made of:";
   std::vector<std::string> names;

@@ -20,6 +20,8 @@ inline constexpr const char* kNormalsMeaning =
 struct RunSettings {
   std::string dataset;
   std::string camera;   // file or name; empty: from the dataset
+  double focal = 0;     // pixels, for a camera without calibration; 0: not given
+  double fov = 0;       // the same as degrees across
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string preset = "structure";
   std::string map;  // file of an earlier run to go on in; empty: none

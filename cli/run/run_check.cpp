@@ -51,6 +51,21 @@ void check_orders(const std::vector<ParameterInfo>& parameters) {
   }
 }
 
+// Throws Error when there is no image to read.
+cv::Size first_image_size(const io::Dataset& dataset) {
+  if (dataset.layout == io::Layout::kVideo) {
+    const cv::VideoCapture video(dataset.root.string());
+    return {static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH)),
+            static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT))};
+  }
+  std::string why;
+  for (const io::FrameEntry& frame : dataset.frames) {
+    const cv::Mat image = load_image(frame.image, cv::IMREAD_COLOR, why);
+    if (!image.empty()) return image.size();
+  }
+  throw Error(why + "; no image can be read");
+}
+
 }  // namespace
 
 const Preset& choose_preset(const std::string& wanted) {
@@ -70,21 +85,8 @@ io::Dataset open_run_dataset(const RunSettings& settings) {
 }
 
 CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
-  CameraChoice choice = choose_camera(settings.camera, dataset);
-  Camera<double>& camera = choice.camera;
-  if (camera.width > 0 && camera.height > 0) return choice;
-  if (dataset.layout == io::Layout::kVideo) {
-    cv::VideoCapture video(dataset.root.string());
-    camera.width = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
-    camera.height = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
-    return choice;
-  }
-  std::string why;
-  const cv::Mat first = load_image(dataset.frames.front().image, cv::IMREAD_COLOR, why);
-  if (first.empty()) throw Error(why + "; the camera's size is not known without it");
-  camera.width = first.cols;
-  camera.height = first.rows;
-  return choice;
+  const cv::Size size = first_image_size(dataset);
+  return choose_camera({settings.camera, settings.focal, settings.fov}, dataset, size.width, size.height);
 }
 
 void check_live(const RunSettings& settings, const Preset& preset) {
