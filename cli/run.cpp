@@ -3,6 +3,7 @@
 #include "cli/run.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -32,6 +33,16 @@ namespace {
 // Why the last frame has no pose, if it has none.
 std::string last_reason_of(const RunOutcome& outcome) {
   return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().reason);
+}
+
+// A source of normals that gives nothing, view after view, is wrong as a whole: its manifest, or its scale.
+void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
+  constexpr std::size_t kEnough = 10;  // frames, to tell a fault from a view of clutter
+  const bool any = std::any_of(outcome.frames.begin(), outcome.frames.end(),
+                               [](const FrameRecord& frame) { return frame.normals == NormalStatus::kOk; });
+  if (source == "none" || any || outcome.frames.size() < kEnough) return;
+  outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(outcome.frames.size()) +
+                             " frames has normals that are of use; sslam normals shows what a network sees");
 }
 
 class ProgressObserver : public Observer {
@@ -88,6 +99,7 @@ void run(RunSettings settings) {
   progress.finish();
 
   RunOutcome& outcome = recorder.outcome;
+  warn_of_useless_normals(settings.normals, outcome);
   print_warnings(outcome.warnings);
   write_run(context, outcome);
   const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sslam/opencv/camera/camera_trees.hpp"
+#include "sslam/opencv/camera/matrix_cameras.hpp"
 
 namespace sslam {
 namespace detail {
@@ -73,7 +73,7 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   demand_numbers(keys, model, v.size(), first);
   set_pinhole(keys, v[2], one_focal ? v[2] : v[3], v[first - 2] - 0.5, v[first - 1] - 0.5, file);
   std::vector<double> lens(v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
-  set_lens(keys, model, lens, file.camera.distortion);
+  set_lens(keys, model, lens, file);
   if (rows.size() > 1)
     file.notes.push_back(keys.file() + ": has " + std::to_string(rows.size()) +
                          " cameras; the first is taken");
@@ -100,7 +100,7 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   std::vector<double> lens(v.begin() + 4, v.end());
   const std::string model = named ? rows[0][0] : lens.size() > 1 ? "RadTan" : "FOV";
   if (lens.size() == 1 && lens[0] == 0) return file;  // omega: the lens is straight
-  set_lens(keys, model, lens, file.camera.distortion);
+  set_lens(keys, model, lens, file);
   return file;
 }
 
@@ -136,7 +136,7 @@ inline int row_pixels(const CameraKeys& keys, double value) {
     keys.fail(
         "rows of numbers that are no calibration; expected fx fy cx cy with k1 k2 p1 p2 k3, or a 3x3 matrix");
   set_pinhole(keys, all[0], all[1], all[2], all[3], file);
-  set_lens(keys, "plumb_bob", {all.begin() + 4, all.end()}, file.camera.distortion);
+  set_lens(keys, "plumb_bob", {all.begin() + 4, all.end()}, file);
   return file;
 }
 
