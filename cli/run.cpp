@@ -38,8 +38,9 @@ std::string last_reason_of(const RunOutcome& outcome) {
 // A source of normals that gives nothing, view after view, is wrong as a whole: its manifest, or its scale.
 void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
   constexpr std::size_t kEnough = 10;  // frames, to tell a fault from a view of clutter
-  const bool any = std::any_of(outcome.frames.begin(), outcome.frames.end(),
-                               [](const FrameRecord& frame) { return frame.normals == NormalStatus::kOk; });
+  const bool any = std::any_of(outcome.frames.begin(), outcome.frames.end(), [](const FrameRecord& frame) {
+    return frame.normal_status == NormalStatus::kOk;
+  });
   if (source == "none" || any || outcome.frames.size() < kEnough) return;
   outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(outcome.frames.size()) +
                              " frames has normals that are of use; sslam normals shows what a network sees");

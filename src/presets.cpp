@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "sslam/core/error.hpp"
-#include "sslam/opencv/parameters.hpp"
 #include "sslam/system/compiled_pipelines.hpp"
-#include "sslam/system/normal_choice.hpp"
 
 namespace sslam {
 namespace {
@@ -64,16 +62,6 @@ void add_preset(Preset preset) {
     *at = std::move(preset);
   else
     registered().push_back(std::move(preset));
-}
-
-ParameterTable parameters_of(const Preset& preset) {
-  const std::unique_ptr<Engine> engine = preset.make();
-  engine->create_points(preset.new_points);
-  ParameterTable table;
-  engine->collect(table);
-  collect_frontend_parameters(ImageFrontend<NormalChoice>(), table);
-  collect_normal_parameters(table);
-  return table;
 }
 
 const Preset& find_preset(std::string_view name) {

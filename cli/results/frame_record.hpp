@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "sslam/core/parameter_table.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/system/engine.hpp"

@@ -137,8 +137,8 @@ void write_top_view_file(const fs::path& path, const RunContext& context, const 
 Json normal_faults_json(const RunOutcome& outcome) {
   Json faults = Json::object();
   for (const FrameRecord& frame : outcome.frames)
-    if (frame.normals != NormalStatus::kOk && frame.normals != NormalStatus::kNoEvidence) {
-      Json& count = faults[name(frame.normals)];
+    if (frame.normal_status != NormalStatus::kOk && frame.normal_status != NormalStatus::kNoEvidence) {
+      Json& count = faults[name(frame.normal_status)];
       count = count.is_null() ? 1 : count.get<int>() + 1;
     }
   return faults;

@@ -3,52 +3,23 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
-#include <string_view>
 #include <utility>
 
 #include "cli/input/image_file.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
-#include "sslam/opencv/parameters.hpp"
+#include "sslam/system/parameters.hpp"
 
 namespace sslam::cli {
 namespace {
 
-void check(const ParameterAnswer& answer) {
-  if (!answer.ok()) throw io::Error("--set " + answer.message);
-}
-
-void set_one(const std::string& text, ParameterTable& table) {
+ParameterValue parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value || !std::isfinite(*value)) throw Error("--set " + text + ": expected stage.parameter=number");
+  if (!value) throw Error("--set " + text + ": expected stage.parameter=number");
   return {text.substr(0, equals), *value};
-}
-
-// Parameters of which one must stay below another, and what a run would else do without a word.
-struct Order {
-  std::string_view low, high, otherwise;
-};
-constexpr std::array<Order, 2> kOrders{{
-    {"rotation.squareness", "rotation.max_sigma", "no rotation would be trusted"},
-    {"rotation.narrowest_kernel", "rotation.widest_kernel", "the search could not narrow"},
-}};
-
-void check_orders(const std::vector<ParameterInfo>& parameters) {
-  const auto find = [&](std::string_view name) {
-    return std::find_if(parameters.begin(), parameters.end(),
-                        [name](const ParameterInfo& parameter) { return parameter.name == name; });
-  };
-  for (const Order& order : kOrders) {
-    const auto low = find(order.low), high = find(order.high);
-    if (low == parameters.end() || high == parameters.end() || low->value < high->value) continue;
-    char values[80];
-    std::snprintf(values, sizeof values, "%g is not below the %g of ", low->value, high->value);
-    throw Error("--set " + low->name + ": " + values + high->name + ": " + std::string(order.otherwise));
-  }
 }
 
 // Throws Error when there is no image to read.
@@ -106,19 +77,30 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
     throw Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
 }
 
-std::vector<ParameterValue> check_overrides(const Preset& preset, const std::vector<std::string>& set) {
-  const std::unique_ptr<Engine> engine = preset.make();
+std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set) {
   std::vector<ParameterValue> overrides;
-  for (const std::string& text : set) {
-    overrides.push_back(parse_override(text));
-    try {
-      engine->set(overrides.back());
-    } catch (const Error& error) {
-      throw Error(std::string("--set ") + error.what());
-    }
-  }
-  check_orders(engine->parameters());
+  for (const std::string& text : set) overrides.push_back(parse_override(text));
+  ParameterTable table = all_parameters(preset);
+  const ParameterAnswer answer = sslam::set_parameters(overrides, table);
+  if (!answer.ok()) throw Error("--set " + answer.message);
   return overrides;
+}
+
+std::string describe_parameters() {
+  std::string text, group;
+  const ParameterTable table = all_parameters(find_preset("structure"));
+  for (const Parameter& parameter : table.entries()) {
+    const std::string stage = parameter.name.substr(0, parameter.name.find('.'));
+    if (!group.empty() && stage != group) text += '\n';
+    group = stage;
+    const char* const unit = name(parameter.unit);
+    char line[256];
+    std::snprintf(line, sizeof line, "%-44s %8g  %-8s %-18s  %s\n", parameter.name.c_str(), parameter.initial,
+                  *unit == '\0' ? "-" : unit, ParameterTable::range(parameter).c_str(),
+                  parameter.meaning.c_str());
+    text += line;
+  }
+  return text;
 }
 
 }  // namespace sslam::cli

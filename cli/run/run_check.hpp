@@ -8,6 +8,7 @@
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/normal_choice.hpp"
 #include "cli/run.hpp"
+#include "sslam/system/parameter_value.hpp"
 #include "sslam/system/presets.hpp"
 
 namespace sslam::cli {
@@ -26,12 +27,11 @@ void check_live(const RunSettings& settings, const Preset& preset);
 // Whether the dataset has what settings.normals need.
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 
-// The parameters of a run with the preset, its front end and every source of normals. Each
-// of `set` is a "stage.parameter=value" that they take.
-ParameterTable set_parameters(const Preset& preset, const std::vector<std::string>& set,
-                              const ImageFrontend<NormalChoice>& frontend = {});
+// Each "stage.parameter=value", if the preset has all these parameters and they take these values.
+[[nodiscard]] std::vector<ParameterValue> set_parameters(const Preset& preset,
+                                                         const std::vector<std::string>& set);
 
-// Them all by stage: name, default, unit, range and meaning, a line each.
+// Every parameter of the fullest preset by stage: name, default, unit, range and meaning, a line each.
 [[nodiscard]] std::string describe_parameters();
 
 }  // namespace sslam::cli

@@ -162,7 +162,6 @@
 #include "sslam/track/pose_tracking.hpp"
 #include "sslam/track/presets.hpp"
 #include "sslam/track/slots.hpp"
-#include "sslam/track/undescribed.hpp"
 #include "sslam/track/upkeep/deferred_upkeep.hpp"
 #include "sslam/track/upkeep/immediate_upkeep.hpp"
 #include "sslam/track/upkeep/map_server.hpp"
@@ -173,4 +172,3 @@
 #include "sslam/track/worlds/trajectory_log.hpp"
 #include "sslam/track/worlds/waiting_frames.hpp"
 #include "sslam/track/worlds/world.hpp"
-#include "sslam/version.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/map/map.hpp"
 
+#include <type_traits>
 #include <utility>
 
 #include "sslam/map/local_map.hpp"
@@ -29,6 +30,12 @@ Map<double> small_map() {
   for (KeyframeId k = 0; k < 3; ++k) map.update_covisibility(k);
   return map;
 }
+
+// What two lists of the map say about one observation cannot be changed in one of them alone.
+static_assert(!std::is_copy_assignable_v<MapList<LandmarkId>> &&
+              !std::is_move_assignable_v<MapList<LandmarkId>>);
+static_assert(std::is_copy_assignable_v<Keyframe<double>> &&
+              std::is_copy_assignable_v<PointLandmark<double>>);
 
 }  // namespace
 

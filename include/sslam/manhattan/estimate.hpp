@@ -60,7 +60,7 @@ struct ManhattanOptions {
           "of the variance of a plane's normals, that they have in common");
     visit("normal_floor", self.normal_floor, Unit::kDegrees, 0, 45,
           "standard deviation that no plane's direction falls below");
-    visit("normal_votes", self.normal_votes, Unit::kNumber, 0, 1e+06,
+    visit("normal_votes", self.normal_votes, Unit::kNumber, 0, 1e6,
           "independent directions that all normals of a view count as");
     visit("coarse_every", self.coarse_every, Unit::kCount, 1, 1000,
           "one block of normals in so many is read while the kernel narrows");
@@ -68,7 +68,7 @@ struct ManhattanOptions {
           "how well edges keep to their axis: added to the sigma of each segment");
     visit("widest_line_gate", self.widest_line_gate, Unit::kDegrees, 0.01, 45,
           "of the segments at first; it halves in each round");
-    visit("min_line_gain", self.min_line_gain, Unit::kNumber, 0, 1e+06,
+    visit("min_line_gain", self.min_line_gain, Unit::kNumber, 0, 1e6,
           "log-likelihood of the segments with an axis over that without it");
     visit("max_deviation", self.max_deviation, Unit::kDegrees, 0, 180,
           "standard deviation, by votes alone, up to which a rotation is observed");

@@ -34,16 +34,16 @@ struct SearchOptions {
           "kernel width of normals while candidates are compared");
     visit("rank_line_floor", self.rank_line_floor, Unit::kDegrees, 0, 45,
           "added to the sigma of the segments meanwhile");
-    visit("pairs", self.pairs, Unit::kCount, 0, 1e+06,
+    visit("pairs", self.pairs, Unit::kCount, 0, 1e6,
           "random pairs of segments whose vanishing point is tried");
     visit("peaks_apart", self.peaks_apart, Unit::kDegrees, 0, 90, "between two peaks of the normals");
     visit("points_apart", self.points_apart, Unit::kDegrees, 0, 90, "between two vanishing points");
     visit("distinct", self.distinct, Unit::kDegrees, 0, 45, "between two frames that differ");
-    visit("min_surprise", self.min_surprise, Unit::kNumber, 0, 1e+06,
+    visit("min_surprise", self.min_surprise, Unit::kNumber, 0, 1e6,
           "log-likelihood of the frame beyond what chance would find");
-    visit("min_axis_gain", self.min_axis_gain, Unit::kNumber, 0, 1e+06,
+    visit("min_axis_gain", self.min_axis_gain, Unit::kNumber, 0, 1e6,
           "log-likelihood of an axis over clutter in its place");
-    visit("max_skew", self.max_skew, Unit::kNumber, 0, 1e+06,
+    visit("max_skew", self.max_skew, Unit::kNumber, 0, 1e6,
           "of a plane's direction off its axis, standard deviations");
     visit("max_ambiguity", self.max_ambiguity, Unit::kShare, 0, 1,
           "of the next best frame as a share of the best");

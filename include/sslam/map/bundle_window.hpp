@@ -24,8 +24,8 @@ struct BundleWindowOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("max_free", self.max_free, Unit::kCount, 1, 1e+06, "keyframes that move");
-    visit("max_held", self.max_held, Unit::kCount, 0, 1e+06,
+    visit("max_free", self.max_free, Unit::kCount, 1, 1e6, "keyframes that move");
+    visit("max_held", self.max_held, Unit::kCount, 0, 1e6,
           "keyframes around them that stay where they are");
     visit("planes", self.planes, Unit::kCount, 0, 1, "1: points and lines are tied to their planes");
     visit("manhattan", self.manhattan, Unit::kCount, 0, 1,

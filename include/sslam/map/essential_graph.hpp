@@ -33,11 +33,11 @@ struct EdgeSigmas {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("rotation", self.rotation, Unit::kDegrees, 1e-06, 180,
+    visit("rotation", self.rotation, Unit::kDegrees, 1e-6, 180,
           "of the rotation between two keyframes that share 50 landmarks");
-    visit("translation", self.translation, Unit::kNumber, 1e-06, 10,
+    visit("translation", self.translation, Unit::kNumber, 1e-6, 10,
           "of the translation between them over the scene depth");
-    visit("scale", self.scale, Unit::kNumber, 1e-06, 10, "of the logarithm of the scale between them");
+    visit("scale", self.scale, Unit::kNumber, 1e-6, 10, "of the logarithm of the scale between them");
   }
 };
 static_assert(Described<EdgeSigmas<double>>);
@@ -52,8 +52,8 @@ struct EssentialGraphOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("min_shared", self.min_shared, Unit::kCount, 1, 1e+06, "landmarks that make an edge");
-    visit("loop_certainty", self.loop_certainty, Unit::kNumber, 0.001, 1e+06,
+    visit("min_shared", self.min_shared, Unit::kCount, 1, 1e6, "landmarks that make an edge");
+    visit("loop_certainty", self.loop_certainty, Unit::kNumber, 0.001, 1e6,
           "of the motion across a loop over that of an edge");
     visit_within("sigma.", self.sigmas, visit);
   }

@@ -7,12 +7,12 @@
 
 namespace sslam {
 
-// visit(name, value, unit, least, most, meaning)
+// visit(name, value, unit, least, most, meaning). A front end of your own has those of what it names alike.
 template <class Frontend, class Visit>
 void visit_frontend_parameters(Frontend& frontend, Visit&& visit) {
-  visit_stage("points.", frontend.points, visit);
-  visit_stage("lines.", frontend.lines, visit);
-  visit_stage("normals.", frontend.normals, visit);
+  if constexpr (requires { frontend.points; }) visit_stage("points.", frontend.points, visit);
+  if constexpr (requires { frontend.lines; }) visit_stage("lines.", frontend.lines, visit);
+  if constexpr (requires { frontend.normals; }) visit_stage("normals.", frontend.normals, visit);
 }
 
 template <class Frontend>

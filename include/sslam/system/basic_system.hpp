@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "sslam/io/maps/map_file.hpp"
-#include "sslam/opencv/parameters.hpp"
+#include "sslam/system/parameters.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam {
@@ -48,15 +48,9 @@ BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(sett
 
 template <class Frontend>
 void BasicSystem<Frontend>::set_parameters() {
-  engine_->collect(parameters_);
-  collect_frontend_parameters(*frontend_, parameters_);
-  collect_normal_parameters(parameters_);
-  const auto demand = [](const ParameterAnswer& answer) {
-    if (!answer.ok()) throw SettingsError("parameters", answer.message);
-  };
-  for (const ParameterValue& wanted : settings_.parameters)
-    demand(parameters_.set(wanted.name, wanted.value));
-  demand(parameters_.check());
+  parameters_ = all_parameters(*engine_, *frontend_);
+  const ParameterAnswer answer = sslam::set_parameters(settings_.parameters, parameters_);
+  if (!answer.ok()) throw SettingsError("parameters", answer.message);
   engine_->write(parameters_);
   write_frontend_parameters(parameters_, *frontend_);
 }

@@ -30,9 +30,6 @@ struct Preset {
 // name.
 void add_preset(Preset preset);
 
-// Every parameter of the preset's pipeline, of the front end and of all sources of normals, at its default.
-[[nodiscard]] ParameterTable parameters_of(const Preset& preset);
-
 // Throws Error, which names those that there are, when there is none of that name.
 [[nodiscard]] const Preset& find_preset(std::string_view name);
 

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "sslam/core/parameter_table.hpp"
-#include "sslam/track/undescribed.hpp"
 
 namespace sslam {
 
@@ -21,6 +20,7 @@ inline constexpr std::array kPipelineOrders{
 template <class Pipeline, class Visit>
 void visit_parameters(Pipeline& p, Visit&& visit) {
   visit_stage("rotation.", p.rotation, visit);
+  if constexpr (requires { p.rotation.sightings; }) visit_stage("rotation.", p.rotation.sightings, visit);
   visit_stage("initialisation.", p.initialisation, visit);
   visit_stage("translation.", p.translation, visit);
   visit_stage("fallback.", p.fallback, visit);
@@ -36,7 +36,6 @@ void visit_parameters(Pipeline& p, Visit&& visit) {
   visit_stage("loops.", p.loops, visit);
   visit_stage("atlas.", p.trial, visit);
   visit_stage("atlas.", p.atlas, visit);
-  visit_undescribed(p, visit);
 }
 
 template <class Pipeline>

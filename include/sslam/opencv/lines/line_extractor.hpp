@@ -37,7 +37,7 @@ struct LineOptions {
           "length of a segment over the longer side of the image");
     visit("border", self.border, Unit::kPixels, 0, kUnbounded,
           "segments that run along the border within this are left out");
-    visit("max_lines", self.max_lines, Unit::kCount, 0, 1e+06, "longest kept");
+    visit("max_lines", self.max_lines, Unit::kCount, 0, 1e6, "longest kept");
     visit_within("detector.", self.detector, visit);
     visit_within("merge.", self.merge, visit);
     visit_within("refine.", self.refine, visit);

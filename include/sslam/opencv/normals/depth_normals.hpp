@@ -31,10 +31,10 @@ struct DepthNormalsOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("min_depth", self.min_depth, Unit::kNumber, 0.001, 1e+06, "metres");
-    visit("max_depth", self.max_depth, Unit::kNumber, 0.001, 1e+06, "metres");
-    visit("noise", self.noise, Unit::kNumber, 1e-09, 10, "of the inverse depth of a pixel, 1 / metres");
-    visit("block_noise", self.block_noise, Unit::kNumber, 1e-09, 10,
+    visit("min_depth", self.min_depth, Unit::kNumber, 0.001, 1e6, "metres");
+    visit("max_depth", self.max_depth, Unit::kNumber, 0.001, 1e6, "metres");
+    visit("noise", self.noise, Unit::kNumber, 1e-9, 10, "of the inverse depth of a pixel, 1 / metres");
+    visit("block_noise", self.block_noise, Unit::kNumber, 1e-9, 10,
           "of the mean over a block of pixels, 1 / metres");
     visit("target_error", self.target_error, Unit::kDegrees, 0.01, 45,
           "of a normal: the window grows until it should be reached");

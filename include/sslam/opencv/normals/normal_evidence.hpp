@@ -44,7 +44,7 @@ struct NormalEvidenceOptions {
     visit("min_agreement", self.min_agreement, Unit::kShare, 0, 1,
           "of neighbouring planar normals: below, none either");
     visit("agree_angle", self.agree_angle, Unit::kDegrees, 0, 180, "up to which two neighbours agree");
-    visit("max_columns", self.max_columns, Unit::kCount, 1, 1e+06, "of the grid of normals that are used");
+    visit("max_columns", self.max_columns, Unit::kCount, 1, 1e6, "of the grid of normals that are used");
     visit_within("mask.", self.mask, visit);
   }
 };

@@ -37,7 +37,7 @@ struct OrbOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("points", self.points, Unit::kCount, 0, 1e+06, "at most, over all levels");
+    visit("points", self.points, Unit::kCount, 0, 1e6, "at most, over all levels");
     visit("levels", self.levels, Unit::kCount, 1, 32, "of the pyramid");
     visit("ratio", self.ratio, Unit::kNumber, 1.01, 4, "size of a level over the size of the next");
     visit("cell", self.cell, Unit::kPixels, 8, 10000, "side of a grid cell, of the level");
@@ -47,7 +47,7 @@ struct OrbOptions {
     visit("contrast.last", self.contrast[2], Unit::kNumber, 1, 255, "where the second finds too few");
     visit("noise_factor", self.noise_factor, Unit::kNumber, 0, 1000,
           "contrast never falls below so many sigma of the image's noise");
-    visit("enough", self.enough, Unit::kCount, 0, 1e+06, "corners in a cell");
+    visit("enough", self.enough, Unit::kCount, 0, 1e6, "corners in a cell");
     visit("candidates", self.candidates, Unit::kNumber, 1, 100,
           "corners that are localised, for each point wanted");
     visit("min_distance", self.min_distance, Unit::kPixels, 0, 1000,

@@ -137,7 +137,7 @@ struct BundleLosses {
           "how far walls and edges stand from the axes, standard deviation");
     visit("plane", self.plane, Unit::kNumber, 0.01, 1000,
           "standard deviations at which a landmark off its plane begins to let go");
-    visit("scale_sigma", self.scale_sigma, Unit::kNumber, 1e-09, 1,
+    visit("scale_sigma", self.scale_sigma, Unit::kNumber, 1e-9, 1,
           "of the distance that holds the scale, over that distance");
     // flatness is listed with the planes.
   }

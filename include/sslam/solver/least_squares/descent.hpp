@@ -29,7 +29,7 @@ struct DescentOptions {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("max_iterations", self.max_iterations, Unit::kCount, 1, 10000, "steps tried at most");
-    visit("initial_damping", self.initial_damping, Unit::kNumber, 0, 1e+06,
+    visit("initial_damping", self.initial_damping, Unit::kNumber, 0, 1e6,
           "relative to the diagonal of the normal equations");
     visit("min_decrease", self.min_decrease, Unit::kShare, 0, 1,
           "of the cost: a step that wins less is the last");

@@ -53,7 +53,7 @@ struct LmOptions {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("max_iterations", self.max_iterations, Unit::kCount, 1, 10000, "steps tried at most");
-    visit("initial_damping", self.initial_damping, Unit::kNumber, 0, 1e+06,
+    visit("initial_damping", self.initial_damping, Unit::kNumber, 0, 1e6,
           "relative to the diagonal of the normal equations");
     visit("min_step", self.min_step, Unit::kNumber, 0, 1,
           "length of a step below which the state stands still");

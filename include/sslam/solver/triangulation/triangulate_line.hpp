@@ -35,9 +35,9 @@ struct LineTriangulationOptions {
           "uncertainty of an end over its distance");
     visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
           "distance of a seen end from the projected line, standard deviations");
-    visit("min_depth", self.min_depth, Unit::kNumber, 0, 1e+06,
+    visit("min_depth", self.min_depth, Unit::kNumber, 0, 1e6,
           "of the seen ends in every view, units of the map");
-    visit("max_stretch", self.max_stretch, Unit::kNumber, 0, 1e+06,
+    visit("max_stretch", self.max_stretch, Unit::kNumber, 0, 1e6,
           "length over the distance from the nearest camera");
     visit_within("solver.", self.solver, visit);
   }

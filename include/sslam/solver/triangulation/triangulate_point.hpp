@@ -34,7 +34,7 @@ struct PointTriangulationOptions {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     // min_parallax is listed by the stage that triangulates, under a name of its own.
-    visit("min_depth", self.min_depth, Unit::kNumber, 0, 1e+06, "in every view, units of the map");
+    visit("min_depth", self.min_depth, Unit::kNumber, 0, 1e6, "in every view, units of the map");
     visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
           "reprojection error in every view, standard deviations");
     visit("max_iterations", self.max_iterations, Unit::kCount, 1, 1000, "of the refinement");

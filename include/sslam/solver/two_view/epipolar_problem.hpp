@@ -61,7 +61,7 @@ struct RelativePoseOptions {
     visit("max_direction_sigma", self.max_direction_sigma, Unit::kDegrees, 0, 180,
           "standard deviation of the direction of the translation");
     visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
-    visit("min_inliers", self.min_inliers, Unit::kCount, 5, 1e+06, "matches that agree with the pose");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 5, 1e6, "matches that agree with the pose");
     visit_within("solver.", self.solver, visit);
   }
 };

@@ -26,9 +26,9 @@ struct FindRelativePoseOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e+06, "sets of five matches tried at most");
+    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e6, "sets of five matches tried at most");
     visit("confidence", self.confidence, Unit::kShare, 0, 1, "that one of them is free of mismatches");
-    visit("min_cost_gap", self.min_cost_gap, Unit::kNumber, 0, 1e+06,
+    visit("min_cost_gap", self.min_cost_gap, Unit::kNumber, 0, 1e6,
           "between the two answers of a nearly flat scene, variances");
     visit_within("rotation.", self.rotation, visit);
     visit_within("refinement.", self.refinement, visit);

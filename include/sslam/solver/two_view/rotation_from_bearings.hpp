@@ -34,8 +34,8 @@ struct RotationFromBearingsOptions {
     visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
           "standard deviation of the rotation about any axis");
     visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
-    visit("min_inliers", self.min_inliers, Unit::kCount, 2, 1e+06, "matches that agree with the rotation");
-    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e+06, "pairs of matches tried at most");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 2, 1e6, "matches that agree with the rotation");
+    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e6, "pairs of matches tried at most");
     visit("confidence", self.confidence, Unit::kShare, 0, 1, "that one of them is free of mismatches");
   }
 };

@@ -45,8 +45,8 @@ struct TranslationOptions {
     visit("min_front_share", self.min_front_share, Unit::kShare, 0, 1,
           "of the moved matches that lie in front");
     visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
-    visit("min_inliers", self.min_inliers, Unit::kCount, 2, 1e+06, "matches that agree with the translation");
-    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e+06, "pairs of matches tried at most");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 2, 1e6, "matches that agree with the translation");
+    visit("max_samples", self.max_samples, Unit::kCount, 1, 1e6, "pairs of matches tried at most");
     visit("confidence", self.confidence, Unit::kShare, 0, 1, "that one of them is free of mismatches");
   }
 };

@@ -23,12 +23,12 @@ struct PlaceRecognitionOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("candidates", self.most, Unit::kCount, 0, 1e+06, "places to compare with");
+    visit("candidates", self.most, Unit::kCount, 0, 1e6, "places to compare with; 0: none");
     visit("max_distance", self.max_distance, Unit::kCount, 0, 256,
           "bits between a landmark's descriptor and that of its feature");
     visit("max_ratio", self.max_ratio, Unit::kShare, 0, 1,
           "to the next best feature: landmarks that look like several do not vote");
-    visit("min_votes", self.min_votes, Unit::kCount, 1, 1e+06,
+    visit("min_votes", self.min_votes, Unit::kCount, 1, 1e6,
           "landmarks that a keyframe must share with the frame");
   }
 };

@@ -27,12 +27,8 @@ struct RotationOptions {
           "how far walls and edges stand from right angles");
     visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
           "largest standard deviation of a rotation that is trusted");
-    auto& kernels = self.search.rotation;
-    visit("min_normal_share", kernels.min_normal_share, Unit::kShare, 0, 1,
-          "of the normals, that shows an axis");
-    visit("widest_kernel", kernels.widest_kernel, Unit::kDegrees, 0, 45,
-          "first kernel width of the mean-shift");
-    visit("narrowest_kernel", kernels.narrowest_kernel, Unit::kDegrees, 0, 45, "last kernel width");
+    visit_within("", self.search.rotation, visit);
+    visit_within("search.", self.search, visit);
   }
 };
 static_assert(Described<RotationOptions<double>>);

@@ -3,6 +3,7 @@
 // lines of the last two frames fix them (Li et al. 2020, section V-B).
 #pragma once
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/matching/match_lines.hpp"
 #include "sslam/track/matching/pose_acceptance.hpp"

@@ -44,6 +44,17 @@ class LoopClosing {
   MapAdjustment<S, BundleSolver<S>> adjustment;
   LandmarkFusion<S> fusion;
 
+  // With those of its detection, adjustment and fusion.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+    visit_stage("", self.detection, visit);
+    visit_stage("graph.", self.essential, visit);
+    visit_stage("graph.", self.pose_graph, visit);
+    visit_stage("adjustment.", self.adjustment, visit);
+    visit_stage("fusion.", self.fusion, visit);
+  }
+
   // Drift bends the map as a whole, which is slow to adjust.
   LoopClosing() {
     adjustment.solver.options.max_iterations = 20;

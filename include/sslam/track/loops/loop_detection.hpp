@@ -48,6 +48,16 @@ class LoopDetection {
   FeatureFallback<S> alignment;
   LocalMapRefinement<S> refinement;
 
+  // With those of the stages that it asks.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+    visit_stage("", self.places, visit);
+    visit_stage("", self.refinement, visit);
+    visit_stage("alignment.", self.alignment, visit);
+    visit_stage("confirmation.", self.confirmation, visit);
+  }
+
   LoopDetection() {
     places.options.most = 2;
     places.options.min_votes = 20;

@@ -18,7 +18,7 @@ struct FusionOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e+06, "keyframes to fuse with");
+    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e6, "keyframes to fuse with");
     visit("point_radius", self.point_radius, Unit::kPixels, 0.1, kUnbounded,
           "between a projected landmark and the feature that takes it over");
     visit("line_radius", self.line_radius, Unit::kPixels, 0.1, kUnbounded,

@@ -35,8 +35,8 @@ struct InitialisationOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("min_points", self.min_points, Unit::kCount, 8, 1e+06, "landmarks of the first map");
-    visit("min_matches", self.min_matches, Unit::kCount, 5, 1e+06, "matches with the reference frame");
+    visit("min_points", self.min_points, Unit::kCount, 8, 1e6, "landmarks of the first map");
+    visit("min_matches", self.min_matches, Unit::kCount, 5, 1e6, "matches with the reference frame");
     visit("min_parallax", self.triangulation.min_parallax, Unit::kDegrees, 0, 90,
           "of a landmark that counts");
     visit("max_direction_sigma", self.max_direction_sigma, Unit::kDegrees, 0, 180,
@@ -45,7 +45,7 @@ struct InitialisationOptions {
           "standard deviation of a Manhattan rotation that is taken as known");
     visit("search_radius", self.search_radius, Unit::kPixels, 1, kUnbounded,
           "around where a feature was last seen");
-    visit("scene_depth", self.scene_depth, Unit::kNumber, 1e-06, 1e+06,
+    visit("scene_depth", self.scene_depth, Unit::kNumber, 1e-6, 1e6,
           "median depth of the first map: sets the scale");
     visit_within("match.", self.match, visit);
     visit_within("translation.", self.translation, visit);

@@ -21,9 +21,9 @@ struct KeyframeCullingOptions {
   static void parameters(Self& self, Visit&& visit) {
     visit("redundant_share", self.redundant_share, Unit::kNumber, 0, 2,
           "of a keyframe's landmarks, seen well elsewhere: it is removed (over 1: never)");
-    visit("min_others", self.min_others, Unit::kCount, 1, 1e+06,
+    visit("min_others", self.min_others, Unit::kCount, 1, 1e6,
           "other keyframes that must see a landmark as well");
-    visit("spared", self.spared, Unit::kCount, 0, 1e+06, "newest keyframes that always stay");
+    visit("spared", self.spared, Unit::kCount, 0, 1e6, "newest keyframes that always stay");
   }
 };
 static_assert(Described<KeyframeCullingOptions<double>>);

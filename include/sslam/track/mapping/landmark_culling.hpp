@@ -20,8 +20,8 @@ struct LandmarkCullingOptions {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("min_found", self.min_found, Unit::kShare, 0, 1, "of the frames that should see a landmark and do");
-    visit("probation", self.probation, Unit::kCount, 0, 1e+06, "keyframes for which a landmark is young");
-    visit("min_observations", self.min_observations, Unit::kCount, 0, 1e+06,
+    visit("probation", self.probation, Unit::kCount, 0, 1e6, "keyframes for which a landmark is young");
+    visit("min_observations", self.min_observations, Unit::kCount, 0, 1e6,
           "that a landmark must have when its probation ends");
   }
 };

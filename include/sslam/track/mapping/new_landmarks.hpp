@@ -32,12 +32,12 @@ struct NewLandmarkOptions {
   static void parameters(Self& self, Visit&& visit) {
     visit("use_points", self.use_points, Unit::kCount, 0, 1, "1: new points are made");
     visit("use_lines", self.use_lines, Unit::kCount, 0, 1, "1: new lines are made");
-    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e+06, "keyframes to triangulate with");
-    visit("min_baseline", self.min_baseline, Unit::kNumber, 0, 1e+06,
+    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e6, "keyframes to triangulate with");
+    visit("min_baseline", self.min_baseline, Unit::kNumber, 0, 1e6,
           "between two keyframes over the median scene depth");
-    visit("nearest", self.nearest, Unit::kNumber, 0, 1e+06,
+    visit("nearest", self.nearest, Unit::kNumber, 0, 1e6,
           "depth of a new landmark over the median scene depth, at least");
-    visit("farthest", self.farthest, Unit::kNumber, 0, 1e+06,
+    visit("farthest", self.farthest, Unit::kNumber, 0, 1e6,
           "depth of a new landmark over the median scene depth, at most");
     visit("max_epipolar", self.max_epipolar, Unit::kNumber, 0.1, 1000,
           "distance from the epipolar line over the feature's sigma");

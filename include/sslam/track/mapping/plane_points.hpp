@@ -24,8 +24,8 @@ struct PlanePointOptions {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     // few_landmarks is listed with the planes.
-    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e+06, "keyframes to match with");
-    visit("reach", self.reach, Unit::kNumber, 0, 1e+06,
+    visit("max_neighbours", self.max_neighbours, Unit::kCount, 0, 1e6, "keyframes to match with");
+    visit("reach", self.reach, Unit::kNumber, 0, 1e6,
           "of a plane beyond its members over the median scene depth");
     visit("max_error", self.max_error, Unit::kNumber, 0.1, 100,
           "between a point's image and its match, standard deviations");

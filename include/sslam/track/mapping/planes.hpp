@@ -46,20 +46,20 @@ struct PlaneOptions {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("min_members", self.min_members, Unit::kCount, 0, 1e+06,
+    visit("min_members", self.min_members, Unit::kCount, 0, 1e6,
           "points and lines that make a plane; 0: none is looked for");
-    visit("tolerance", self.tolerance, Unit::kNumber, 1e-06, 10,
+    visit("tolerance", self.tolerance, Unit::kNumber, 1e-6, 10,
           "distance of a member from its plane over the median scene depth");
-    visit("max_sigma", self.max_sigma, Unit::kNumber, 1e-06, 10,
+    visit("max_sigma", self.max_sigma, Unit::kNumber, 1e-6, 10,
           "of a member along the plane's normal over the median scene depth");
     visit("max_tilt", self.max_tilt, Unit::kDegrees, 0, 90, "of a line against its plane");
     visit("min_spread", self.min_spread, Unit::kNumber, 0, 10,
           "of the members in the plane over the median scene depth");
-    visit("min_contrast", self.min_contrast, Unit::kNumber, 0, 1e+06,
+    visit("min_contrast", self.min_contrast, Unit::kNumber, 0, 1e6,
           "members over what their surroundings make expect");
-    visit("reach", self.reach, Unit::kNumber, 0, 1e+06,
+    visit("reach", self.reach, Unit::kNumber, 0, 1e6,
           "of a plane beyond its members over the median scene depth");
-    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e+06, "whose landmarks are looked at");
+    visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e6, "whose landmarks are looked at");
     visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180,
           "between a keyframe's rotation and the Manhattan frame's, beyond which it finds none");
   }

@@ -29,7 +29,7 @@ struct LineMatchOptions {
     visit("max_angle", self.max_angle, Unit::kDegrees, 0, 90, "between the predicted and the seen segment");
     visit("min_overlap", self.min_overlap, Unit::kShare, 0, 1,
           "of the shorter segment along the predicted one");
-    visit("near_plane", self.near_plane, Unit::kNumber, 0, 1e+06,
+    visit("near_plane", self.near_plane, Unit::kNumber, 0, 1e6,
           "depth below which a landmark is cut off, units of the map");
   }
 };

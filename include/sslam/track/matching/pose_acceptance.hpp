@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sslam/core/parameter.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
 #include "sslam/track/contract/pose_estimate.hpp"
 #include "sslam/track/matching/correspondences.hpp"
@@ -21,7 +22,7 @@ struct PoseAcceptance {
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
-    visit("min_inliers", self.min_inliers, Unit::kCount, 3, 1e+06, "points plus lines");
+    visit("min_inliers", self.min_inliers, Unit::kCount, 3, 1e6, "points plus lines");
     visit("min_inlier_share", self.min_inlier_share, Unit::kShare, 0, 1, "of all matches");
     visit("max_position_sigma", self.max_position_sigma, Unit::kNumber, 0, kUnbounded,
           "of the camera's place, over the median scene depth");
