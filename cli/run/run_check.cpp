@@ -26,8 +26,10 @@ ParameterValue parse_override(const std::string& text) {
 cv::Size first_image_size(const io::Dataset& dataset) {
   if (dataset.layout == io::Layout::kVideo) {
     const cv::VideoCapture video(dataset.root.string());
-    return {static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH)),
-            static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT))};
+    const cv::Size size(static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH)),
+                        static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT)));
+    if (size.empty()) throw Error(dataset.root.string() + ": this video does not say the size of its frames");
+    return size;
   }
   std::string why;
   for (const io::FrameEntry& frame : dataset.frames) {
