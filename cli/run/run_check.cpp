@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "cli/input/image_file.hpp"
@@ -22,21 +23,19 @@ ParameterValue parse_override(const std::string& text) {
   return {text.substr(0, equals), *value};
 }
 
-// Throws Error when there is no image to read.
-cv::Size first_image_size(const io::Dataset& dataset) {
+// Of the first image that can be read; empty, with the reason in `why`, where there is none.
+cv::Size first_image_size(const io::Dataset& dataset, std::string& why) {
   if (dataset.layout == io::Layout::kVideo) {
     const cv::VideoCapture video(dataset.root.string());
-    const cv::Size size(static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH)),
-                        static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT)));
-    if (size.empty()) throw Error(dataset.root.string() + ": this video does not say the size of its frames");
-    return size;
+    why = dataset.root.string() + ": this video does not say the size of its frames";
+    return {static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH)),
+            static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT))};
   }
-  std::string why;
   for (const io::FrameEntry& frame : dataset.frames) {
     const cv::Mat image = load_image(frame.image, cv::IMREAD_COLOR, why);
     if (!image.empty()) return image.size();
   }
-  throw Error(why + "; no image can be read");
+  return {};
 }
 
 }  // namespace
@@ -58,8 +57,13 @@ io::Dataset open_run_dataset(const RunSettings& settings) {
 }
 
 CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
-  const cv::Size size = first_image_size(dataset);
-  return choose_camera({settings.camera, settings.focal, settings.fov}, dataset, size.width, size.height);
+  std::string why;
+  const cv::Size size = first_image_size(dataset, why);
+  if (!size.empty())
+    return choose_camera({settings.camera, settings.focal, settings.fov}, dataset, size.width, size.height);
+  const std::optional<CameraChoice> known = find_camera(settings.camera, dataset);
+  if (known && known->camera.width > 0 && known->camera.height > 0) return *known;
+  throw Error(why + "; the camera's size is not known without it");
 }
 
 void check_live(const RunSettings& settings, const Preset& preset) {

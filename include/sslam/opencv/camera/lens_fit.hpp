@@ -3,7 +3,7 @@
 // five coefficients come as near as a fraction of a pixel.
 #pragma once
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,19 +74,18 @@ template <class Sample>
       before = now;
     }
   }
-  const auto rows = 2 * std::ssize(samples);
-  Eigen::MatrixXd a(rows, 5);
-  Eigen::VectorXd b(rows);
+  Mat<double, 5, 5> normal = Mat<double, 5, 5>::Zero();
+  Vec<double, 5> right = Vec<double, 5>::Zero();
   const std::array<RadTan<double>, 5> units{
       {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, 0, 1, 0, 0}, {0, 0, 0, 1, 0}, {0, 0, 0, 0, 1}}};
-  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
-    const auto& [m, seen] = samples[static_cast<std::size_t>(i)];
-    const double weight = std::sqrt(m.norm());  // rays of a ring stand for its area
-    for (Eigen::Index j = 0; j < 5; ++j)
-      a.block<2, 1>(2 * i, j) = weight * (units[static_cast<std::size_t>(j)].distort(m) - m);
-    b.segment<2>(2 * i) = weight * (seen - m);
+  for (const auto& [m, seen] : samples) {
+    Mat<double, 2, 5> row;
+    for (Eigen::Index j = 0; j < 5; ++j) row.col(j) = units[static_cast<std::size_t>(j)].distort(m) - m;
+    const double weight = m.norm();  // rays of a ring stand for its area
+    normal += weight * row.transpose() * row;
+    right += weight * row.transpose() * (seen - m);
   }
-  const Eigen::VectorXd k = a.colPivHouseholderQr().solve(b);
+  const Vec<double, 5> k = normal.ldlt().solve(right);
   fit.lens = {k[0], k[1], k[2], k[3], k[4]};
   fit.covers = true;
   for (const auto& [m, seen] : samples) {
