@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "io/errors.hpp"
 #include "support/catch.hpp"
-#include "support/error_of.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images that lost their end, and the choice of a calibration.
+// Images that lost their end.
 #include "cli/input/image_file.hpp"
 
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "cli/input/camera_choice.hpp"
 #include "io/errors.hpp"
 #include "sslam/core/random.hpp"
 #include "support/scratch_folder.hpp"

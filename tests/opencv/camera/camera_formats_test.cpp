@@ -185,8 +185,7 @@ TEST_CASE("Lenses of other models are fitted where they can be, and refused with
   const std::string wide =
       "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0, 0, 0, 0]\n"
       "  intrinsics: [190, 190, 255, 256]\n  resolution: [512, 512]\n  distortion_model: ";
-  check_refused(wide + "equidistant\n",
-                "'equidistant' sees more here than sslam's radial-tangential lens can; undistort");
+  check_refused(wide + "equidistant\n", "'equidistant' sees more than a pinhole can; undistort");
   check_refused("Camera.model: \"equirectangular\"\n" + pinhole, "'equirectangular' is not known here");
   check_refused(pinhole + size + "Camera.k1: 0.01\nCamera.k2: 0.1\nCamera.k3: 0.1\nCamera.k4: 0.1\n",
                 "Camera.k4 without Camera.p1 belongs to a fisheye");
@@ -194,7 +193,7 @@ TEST_CASE("Lenses of other models are fitted where they can be, and refused with
                 "Camera.p1 belongs to a pinhole's lens");
   check_refused("cam0:\n  camera_model: omni\n  intrinsics: [1, 500, 500, 320, 240]\n",
                 "'omni' is not known here");
-  check_refused("0.5 0.66 0.5 0.5 2.8\n1280 1024\ncrop\n640 480\n", "'FOV' sees more here");
+  check_refused("0.5 0.66 0.5 0.5 2.8\n1280 1024\ncrop\n640 480\n", "'FOV' sees more than a pinhole can");
 }
 
 TEST_CASE("Keys of a known format that are not known are named") {

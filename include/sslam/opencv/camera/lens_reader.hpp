@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -87,12 +88,15 @@ inline void set_lens(const CameraKeys& keys, const std::string& model, const std
   if (file.camera.width == 0 || file.camera.height == 0)
     keys.fail(name + " is fitted within the image; expected its width and height beside it");
   const LensFit fit = fit_model(keys, rational ? "rational" : model, values, file.camera);
-  constexpr double kWorst = 0.5;  // pixels
-  if (!fit.covers || fit.worst > kWorst)
-    keys.fail(name + " sees more here than sslam's radial-tangential lens can; " + kWayOut);
+  const double bearable = std::max(0.5, 0.001 * file.camera.width);  // pixels
+  if (!fit.covers) keys.fail(name + " sees more than a pinhole can; " + kWayOut);
+  char worst[32];
+  std::snprintf(worst, sizeof worst, "%.2g", fit.worst);
+  if (fit.worst > bearable)
+    keys.fail(name + " is not near a radial-tangential one: " + worst + " pixels off; " + kWayOut);
   lens = fit.lens;
-  file.notes.push_back(keys.file() + ": " + name + " is taken as radial-tangential, at most " +
-                       short_text(fit.worst) + " pixels off within the image");
+  file.notes.push_back(keys.file() + ": " + name + " is taken as radial-tangential, at most " + worst +
+                       " pixels off within the image");
 }
 
 }  // namespace detail
