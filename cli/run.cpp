@@ -11,7 +11,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/input/camera_options.hpp"
-#include "cli/input/image_camera.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
 #include "cli/results/run_report.hpp"

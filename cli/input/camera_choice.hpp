@@ -14,6 +14,7 @@
 
 #include "cli/input/camera_fit.hpp"
 #include "cli/input/exif_focal.hpp"
+#include "cli/shell/messages.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
@@ -34,6 +35,11 @@ struct CameraChoice {
   std::string source;       // for the report: a path or a name
   std::vector<std::string> notes, warnings;
 };
+
+inline void print_notes(const CameraChoice& choice) {
+  for (const std::string& note : choice.notes) print_note(note);
+  print_warnings(choice.warnings);
+}
 
 [[nodiscard]] inline CameraChoice camera_from_file(const std::filesystem::path& path) {
   const CameraFile file = read_camera_file(path);

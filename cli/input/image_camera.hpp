@@ -9,21 +9,17 @@
 #include <utility>
 
 #include "cli/input/camera_choice.hpp"
-#include "cli/shell/messages.hpp"
 
 namespace sslam::cli {
-
-inline void print_notes(const CameraChoice& choice) {
-  for (const std::string& note : choice.notes) print_note(note);
-  print_warnings(choice.warnings);
-}
 
 class ImageCamera {
  public:
   // Where nothing is known, a pinhole is assumed whose focal length is this share of an image's width. Throws
   // Error when a camera file is wrong.
   ImageCamera(CameraWish wish, const io::Dataset& dataset, double focal_per_width)
-      : wish_(std::move(wish)), known_(find_camera(wish_.file, dataset)), focal_per_width_(focal_per_width) {}
+      : wish_(std::move(wish)),
+        known_(wish_.focal > 0 || wish_.fov > 0 ? std::nullopt : find_camera(wish_.file, dataset)),
+        focal_per_width_(focal_per_width) {}
 
   // The first image's size is that of all. Throws Error when the calibration cannot be that image's.
   [[nodiscard]] Camera<double> of(const cv::Mat& image) {

@@ -14,13 +14,14 @@
 namespace sslam {
 namespace detail {
 
-// Words by blanks, row after row; comments (#) and empty rows are left out.
+// Words by blanks, row after row; comments (#) and empty rows are left out, and what follows the first few.
 using WordRows = std::vector<std::vector<std::string>>;
 
 [[nodiscard]] inline WordRows word_rows(const std::string& text) {
   WordRows rows;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  constexpr std::size_t kEnough = 6;  // a matrix has four
+  for (std::string line; rows.size() < kEnough && std::getline(lines, line);) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::vector<std::string> row;
     for (std::string word; words >> word;) row.push_back(word);
@@ -74,9 +75,7 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   set_pinhole(keys, v[2], one_focal ? v[2] : v[3], v[first - 2] - 0.5, v[first - 1] - 0.5, file);
   std::vector<double> lens(v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
   set_lens(keys, model, lens, file);
-  if (rows.size() > 1)
-    file.notes.push_back(keys.file() + ": has " + std::to_string(rows.size()) +
-                         " cameras; the first is taken");
+  if (rows.size() > 1) file.notes.push_back(keys.file() + ": has several cameras; the first is taken");
   return file;
 }
 

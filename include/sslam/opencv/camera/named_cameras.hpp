@@ -129,8 +129,9 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
   file.camera.width = keys.optional_pixels({"w", "width"});
   file.camera.height = keys.optional_pixels({"h", "height"});
   if (keys.has_any({"fl_x", "fx"})) {
-    read_named_pinhole(keys, "", keys.text({"camera_model"}).empty() ? "OPENCV" : keys.text({"camera_model"}),
-                       file);
+    std::string model = keys.text({"camera_model"});
+    if (keys.text({"is_fisheye"}) == "true") model = "OPENCV_FISHEYE";
+    read_named_pinhole(keys, "", model.empty() ? "OPENCV" : model, file);
     file.camera.pinhole.cx -= 0.5;
     file.camera.pinhole.cy -= 0.5;
     return file;
