@@ -105,7 +105,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
 
 // For a camera that nobody has calibrated. Phones and webcams see 55 to 70 degrees along their longer side.
 [[nodiscard]] inline CameraChoice assumed_camera(const io::Dataset& dataset, int width, int height) {
-  char text[240];
+  char text[320];
   const double written = dataset.frames.empty() ? 0 : exif_focal(dataset.frames.front().image, width, height);
   if (written > 0) {
     CameraChoice choice = plain_camera(written, width, height, "the images' Exif");

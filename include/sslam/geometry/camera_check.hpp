@@ -40,7 +40,7 @@ struct CameraCheck {
 // Of a camera with its size.
 [[nodiscard]] inline CameraCheck check_camera(const Camera<double>& camera) {
   const Pinhole<double>& p = camera.pinhole;
-  char text[240];
+  char text[320];
   const auto told = [&text](const char* form, auto... values) {
     std::snprintf(text, sizeof text, form, values...);
     return std::string(text);
