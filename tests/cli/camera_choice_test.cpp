@@ -10,14 +10,11 @@
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;
+using testing::contains;
 
 namespace {
 
 const std::string kYaml = "Camera.fx: 500\nCamera.fy: 510\nCamera.cx: 319.5\nCamera.cy: 239.5\n";
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 // A folder with a camera file and the camera that comes out for images of a size.
 struct Room {
@@ -75,7 +72,7 @@ TEST_CASE("Camera files of other names are found beside the images, and told") {
   const cli::CameraChoice choice = room.choose(640, 480);
   CHECK(choice.camera.pinhole.fy == 510);
   REQUIRE(choice.notes.size() == 1);
-  CHECK(holds(choice.notes[0], "camera.txt"));
+  CHECK(contains(choice.notes[0], "camera.txt"));
 }
 
 TEST_CASE("Without any calibration: --focal, --fov, Exif, or a guess that is told") {
@@ -88,7 +85,7 @@ TEST_CASE("Without any calibration: --focal, --fov, Exif, or a guess that is tol
   CHECK(std::abs(guess.camera.pinhole.fx - 320 / std::tan(radians(30.0))) < 1e-9);
   CHECK(guess.camera.pinhole.cx == 319.5);
   REQUIRE(guess.warnings.size() == 1);
-  CHECK(holds(guess.warnings[0], "ASSUMING a field of view of 60 degrees"));
+  CHECK(contains(guess.warnings[0], "ASSUMING a field of view of 60 degrees"));
   CHECK(room.choose(480, 640).camera.pinhole.fx == guess.camera.pinhole.fx);  // the phone is held upright
 
   for (const bool big_endian : {false, true}) {
@@ -120,23 +117,23 @@ TEST_CASE("A calibration of another resolution is scaled where the shape fits, a
   CHECK(half.camera.pinhole.cx == 159.5);
   CHECK(half.camera.distortion.k1 == -0.1);
   REQUIRE(half.notes.size() == 1);
-  CHECK(holds(half.notes[0], "is for 640x480 pixels, and the images have 320x240: scaled"));
+  CHECK(contains(half.notes[0], "is for 640x480 pixels, and the images have 320x240: scaled"));
   CHECK(room.choose(640, 480).notes.empty());
 }
 
 TEST_CASE("A calibration of another shape is refused with both sizes") {
   const Room room;
   room.scratch.write("camera.yaml", kYaml + "Camera.width: 640\nCamera.height: 480\n");
-  CHECK(holds(room.error(640, 360),
-              "camera.yaml: is for 640x480 pixels, and the images have 640x360: another shape"));
-  CHECK(holds(room.error(480, 640), "have 480x640: they are turned by 90 degrees"));
-  CHECK(holds(room.error(240, 320), "turned by 90 degrees"));
+  CHECK(contains(room.error(640, 360),
+                 "camera.yaml: is for 640x480 pixels, and the images have 640x360: another shape"));
+  CHECK(contains(room.error(480, 640), "have 480x640: they are turned by 90 degrees"));
+  CHECK(contains(room.error(240, 320), "turned by 90 degrees"));
 }
 
 TEST_CASE("A calibration without a size that cannot be that of the images is refused") {
   const Room room;
   room.scratch.write("camera.yaml", kYaml);
-  CHECK(holds(room.error(320, 240),
-              "camera.yaml: the principal point (319.5, 239.5) is far from the middle of 320x240"));
+  CHECK(contains(room.error(320, 240),
+                 "camera.yaml: the principal point (319.5, 239.5) is far from the middle of 320x240"));
   CHECK(room.error(640, 480).empty());
 }
