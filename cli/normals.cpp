@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/input/camera_options.hpp"
 #include "cli/input/frame_reader.hpp"
 #include "cli/input/image_camera.hpp"
 #include "cli/input/normal_files.hpp"
@@ -28,8 +29,8 @@ namespace fs = std::filesystem;
 
 struct NormalsSettings {
   std::string images;
-  std::string model;   // ONNX file or manifest; empty: the one that comes with sslam
-  std::string camera;  // file or name; empty: what is known about the images, else assumed
+  std::string model;  // ONNX file or manifest; empty: the one that comes with sslam
+  CameraWish camera;  // empty: what is known about the images, else assumed
   std::string out = "normals";
   Verbosity verbosity = Verbosity::kNormal;
 };
@@ -133,11 +134,10 @@ void run_normals(const NormalsSettings& settings) {
   print_warnings(dataset.warnings);
   OnnxNormals model = open_model(settings.model);
   const NormalManifest manifest = model.manifest();
-  const std::optional<CameraChoice> known = find_camera(settings.camera, dataset);
-  ImageCamera camera(known, assumed_focal_per_width(manifest.input));
+  ImageCamera camera(settings.camera, dataset, assumed_focal_per_width(manifest.input));
+  FrameReader reader(dataset, camera.claimed_size());
   prepare_folder(settings.out, dataset, manifest);
   NormalWriter writer(std::move(model), std::move(camera), settings.out);
-  FrameReader reader(dataset, known ? cv::Size(known->camera.width, known->camera.height) : cv::Size());
   std::vector<std::string> failures;
   const bool told = dataset.frames.size() > 1 || settings.verbosity == Verbosity::kJson;
   Progress progress(dataset.frames.size(), told ? settings.verbosity : Verbosity::kQuiet, "normals");
@@ -175,11 +175,7 @@ void add_normals_command(CLI::App& app) {
       ->add_option("--model", s->model,
                    "ONNX file with its manifest (.json) beside it; default the network that comes with sslam")
       ->type_name("FILE");
-  command
-      ->add_option("--camera", s->camera,
-                   "camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names() +
-                       "; default camera.yaml beside the images, else a pinhole with the network's view")
-      ->type_name("FILE");
+  add_camera_options(*command, s->camera.file, s->camera.focal, s->camera.fov);
   command->add_option("--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
       ->capture_default_str()
       ->type_name("DIR");

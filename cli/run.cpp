@@ -3,12 +3,14 @@
 #include "cli/run.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/input/camera_options.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
 #include "cli/results/folder_lock.hpp"
@@ -33,6 +35,17 @@ namespace {
 // Why the last frame has no pose, if it has none.
 std::string last_reason_of(const RunOutcome& outcome) {
   return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().reason);
+}
+
+// A source of normals that gives nothing, view after view, is wrong as a whole: its manifest, or its scale.
+void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
+  constexpr std::size_t kEnough = 10;  // frames, to tell a fault from a view of clutter
+  const bool any = std::any_of(outcome.frames.begin(), outcome.frames.end(), [](const FrameRecord& frame) {
+    return frame.normal_status == NormalStatus::kOk;
+  });
+  if (source == "none" || any || outcome.frames.size() < kEnough) return;
+  outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(outcome.frames.size()) +
+                             " frames has normals that are of use; sslam normals shows what a network sees");
 }
 
 class ProgressObserver : public Observer {
@@ -61,6 +74,7 @@ void run(RunSettings settings) {
   if (!settings.map.empty()) known = load_run_map(settings.map);
   const io::Dataset dataset = open_run_dataset(settings);
   const CameraChoice camera = choose_run_camera(settings, dataset);
+  print_notes(camera);
   check_normals(settings, dataset, camera.depth_factor);
   MaskSource masks;
   if (!settings.mask.empty()) masks = MaskSource(settings.mask, {camera.camera.width, camera.camera.height});
@@ -92,6 +106,7 @@ void run(RunSettings settings) {
   progress.finish();
 
   RunOutcome& outcome = recorder.outcome;
+  warn_of_useless_normals(settings.normals, outcome);
   print_warnings(outcome.warnings);
   ResultSet results(settings.out);
   write_run(context, outcome, results.stage());
@@ -122,10 +137,7 @@ void add_run_command(CLI::App& app) {
           "dataset", s->dataset,
           "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
       ->required();
-  command
-      ->add_option("--camera", s->camera,
-                   "Camera file (ORB-SLAM keys) or built-in calibration: " + io::known_camera_names())
-      ->type_name("FILE");
+  add_camera_options(*command, s->camera, s->focal, s->fov);
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   command
       ->add_option(

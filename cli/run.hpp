@@ -20,6 +20,8 @@ inline constexpr const char* kNormalsMeaning =
 struct RunSettings {
   std::string dataset;
   std::string camera;   // file or name; empty: from the dataset
+  double focal = 0;     // pixels, for a camera without calibration; 0: not given
+  double fov = 0;       // the same as degrees across
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all
   std::string preset = "structure";

@@ -1,37 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which calibration a run uses: --camera, else camera.yaml in the dataset, else a published one for the
-// dataset.
+// Which calibration a run uses: --camera, --focal or --fov, else a camera file in the dataset, else a
+// published one for the dataset, else what the first image says about its lens, else a guess that is told.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "cli/input/camera_fit.hpp"
+#include "cli/input/exif_focal.hpp"
+#include "cli/shell/messages.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 
 namespace sslam::cli {
 
+// What the command line says about the camera.
+struct CameraWish {
+  std::string file;  // a file or the name of a built-in calibration; empty: not given
+  double focal = 0;  // pixels; 0: not given
+  double fov = 0;    // degrees across; 0: not given
+};
+
 struct CameraChoice {
   Camera<double> camera;    // width and height are 0 when the source does not give them
   double depth_factor = 0;  // depth image units a metre; 0: not known
   double frame_rate = 0;    // frames a second; 0: not known
   std::string source;       // for the report: a path or a name
+  std::vector<std::string> notes, warnings;
 };
+
+inline void print_notes(const CameraChoice& choice) {
+  for (const std::string& note : choice.notes) print_note(note);
+  print_warnings(choice.warnings);
+}
 
 [[nodiscard]] inline CameraChoice camera_from_file(const std::filesystem::path& path) {
   const CameraFile file = read_camera_file(path);
-  return {file.camera, file.depth_factor, file.frame_rate, path.string()};
+  return {file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}};
 }
 
 [[nodiscard]] inline CameraChoice camera_from_known(const io::KnownCamera& known) {
-  return {known.camera, known.depth_factor, known.frame_rate, "built in: " + std::string(known.name)};
+  return {known.camera, known.depth_factor, known.frame_rate, "built in: " + std::string(known.name), {}, {}};
 }
 
-// wanted: what --camera gave, a file or the name of a built-in calibration; empty: not given. A depth factor
-// that the chosen file leaves out is taken from the published values of the dataset, where there are any.
-// Nothing when nothing is known about the camera. Throws when the file is wrong.
+// Names that camera files have where programs put them beside the images.
+inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
+    "camera.yaml",      "camera.yml",  "camera.json", "camera.txt",     "camera_info.yaml",
+    "cam0/sensor.yaml", "sensor.yaml", "cameras.txt", "transforms.json"};
+
+// The camera file that lies in the dataset, or beside the video; empty: none.
+[[nodiscard]] inline std::filesystem::path own_camera_file(const io::Dataset& dataset) {
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(dataset.root, ignored);
+  const std::filesystem::path place = folder ? dataset.root : dataset.root.parent_path();
+  for (const std::string_view name : kOwnCameraFiles)
+    if (std::filesystem::exists(place / name, ignored)) return place / name;
+  return {};
+}
+
+// A depth factor that the chosen file leaves out is taken from the published values of the dataset, where
+// there are any. Nothing when nothing is known about the camera. Throws when the file is wrong.
 [[nodiscard]] inline std::optional<CameraChoice> find_camera(const std::string& wanted,
                                                              const io::Dataset& dataset) {
   const auto known = io::known_camera_for(dataset);
@@ -45,20 +80,72 @@ struct CameraChoice {
     if (named && !std::filesystem::exists(wanted, ignored)) return camera_from_known(*named);
     return complete(camera_from_file(wanted));
   }
-  std::error_code ignored;
-  const bool folder = std::filesystem::is_directory(dataset.root, ignored);
-  const std::filesystem::path own = (folder ? dataset.root : dataset.root.parent_path()) / "camera.yaml";
-  if (std::filesystem::exists(own, ignored)) return complete(camera_from_file(own));
+  if (const std::filesystem::path own = own_camera_file(dataset); !own.empty()) {
+    CameraChoice choice = complete(camera_from_file(own));
+    if (own.filename() != "camera.yaml")
+      choice.notes.insert(choice.notes.begin(), "the camera is that of " + own.string());
+    return choice;
+  }
   if (known) return camera_from_known(*known);
   return std::nullopt;
 }
 
-// As find_camera, for those who need one: throws when nothing is known about the camera.
-[[nodiscard]] inline CameraChoice choose_camera(const std::string& wanted, const io::Dataset& dataset) {
-  if (auto found = find_camera(wanted, dataset)) return *found;
-  throw Error(
-      dataset.root.string() + ": the camera is not known; pass --camera FILE (YAML with Camera.fx, ...) or " +
-      "the name of a built-in calibration (" + io::known_camera_names() + "), or put a camera.yaml there");
+// Square pixels, the principal point in the middle, no distortion.
+[[nodiscard]] inline CameraChoice plain_camera(double focal, int width, int height,
+                                               const std::string& source) {
+  CameraChoice choice;
+  choice.camera = {{focal, focal, 0.5 * (width - 1), 0.5 * (height - 1)}, {}, width, height};
+  choice.source = source;
+  return choice;
+}
+
+[[nodiscard]] inline double focal_of_view(double degrees_across, int pixels) {
+  return 0.5 * pixels / std::tan(0.5 * radians(degrees_across));
+}
+
+// For a camera that nobody has calibrated. Phones and webcams see 55 to 70 degrees along their longer side.
+[[nodiscard]] inline CameraChoice assumed_camera(const io::Dataset& dataset, int width, int height) {
+  char text[320];
+  const double written = dataset.frames.empty() ? 0 : exif_focal(dataset.frames.front().image, width, height);
+  if (written > 0) {
+    CameraChoice choice = plain_camera(written, width, height, "the images' Exif");
+    std::snprintf(
+        text, sizeof text,
+        "the camera is not calibrated: the images' Exif gives a focal length of %.0f pixels; distortion is "
+        "not known (--camera FILE gives both)",
+        written);
+    choice.notes.emplace_back(text);
+    return choice;
+  }
+  constexpr double kView = 60;  // degrees
+  const double focal = focal_of_view(kView, std::max(width, height));
+  CameraChoice choice = plain_camera(focal, width, height, "assumed: 60 degrees");
+  std::snprintf(
+      text, sizeof text,
+      "the camera is not known: ASSUMING a field of view of %.0f degrees along the longer side (a focal "
+      "length of %.0f pixels) and no distortion; --camera FILE, --focal or --fov say better, sslam calibrate "
+      "makes a camera file",
+      kView, focal);
+  choice.warnings.emplace_back(text);
+  return choice;
+}
+
+// What --focal or --fov make of images of this size; nothing where neither is given.
+[[nodiscard]] inline std::optional<CameraChoice> wished_camera(const CameraWish& wish, int width,
+                                                               int height) {
+  if (wish.focal > 0) return plain_camera(wish.focal, width, height, "--focal");
+  if (wish.fov > 0) return plain_camera(focal_of_view(wish.fov, width), width, height, "--fov");
+  return std::nullopt;
+}
+
+// For images of this size. Throws Error when the camera cannot be theirs.
+[[nodiscard]] inline CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, int width,
+                                                int height) {
+  std::optional<CameraChoice> choice = wished_camera(wish, width, height);
+  if (!choice) choice = find_camera(wish.file, dataset);
+  if (!choice) choice = assumed_camera(dataset, width, height);
+  fit_camera(choice->camera, width, height, choice->source, choice->notes, choice->warnings);
+  return *choice;
 }
 
 }  // namespace sslam::cli

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <vector>
 
 #include "cli/input/frame_reader.hpp"
@@ -58,18 +59,6 @@ cv::Size size_by_centre(const Pinhole<double>& pinhole, const FirstImage& first)
   return off_centre(pinhole, upright) < off_centre(pinhole, first.stored) ? upright : first.stored;
 }
 
-void check_sizes(const FirstImage& first, ImageTurn used, cv::Size camera, const std::string& source) {
-  const cv::Size size = turned_size(first.stored, used);
-  if (size == camera) return;
-  std::string text = wrong_size(first.name, size, camera) + " (" + source + ")";
-  if (first.turn != kUpright)
-    text += std::string("; shown ") + turn_text(first.turn) + ", they are " +
-            size_text(turned_size(first.stored, first.turn));
-  const bool sideways = size.width == camera.height && size.height == camera.width;
-  throw Error(text + (sideways ? "; the calibration is for images turned by 90 degrees"
-                               : "; give the calibration of images of this size"));
-}
-
 void tell_turn(const FirstImage& first, ImageTurn used) {
   if (first.turn == kUpright) return;
   if (used == first.turn)
@@ -91,22 +80,25 @@ void tell_range(const io::Dataset& dataset, cv::Size camera) {
 
 }  // namespace
 
-void fit_camera_to_images(CameraChoice& choice, const io::Dataset& dataset) {
-  Camera<double>& camera = choice.camera;
-  const cv::Size claimed(camera.width, camera.height);
+CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& dataset) {
+  const bool wished = wish.focal > 0 || wish.fov > 0;
+  const std::optional<CameraChoice> known = wished ? std::nullopt : find_camera(wish.file, dataset);
+  const cv::Size claimed = known ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
   const FirstImage first = find_first_image(dataset, claimed);
   if (first.stored.empty()) {
     if (claimed.empty()) throw Error(first.why + "; the camera's size is not known without it");
-    return;  // each frame tells
+    return *known;  // each frame tells
   }
-  const cv::Size size = claimed.empty() ? size_by_centre(camera.pinhole, first) : claimed;
-  const ImageTurn used =
-      turn_for_camera(first.stored, first.turn, size, dataset.layout == io::Layout::kVideo);
-  check_sizes(first, used, size, choice.source);
-  camera.width = size.width;
-  camera.height = size.height;
+  const cv::Size size = !claimed.empty() ? claimed
+                        : known          ? size_by_centre(known->camera.pinhole, first)
+                                         : turned_size(first.stored, first.turn);
+  const bool video = dataset.layout == io::Layout::kVideo;
+  const ImageTurn used = known ? turn_for_camera(first.stored, first.turn, size, video) : first.turn;
+  const cv::Size images = turned_size(first.stored, used);
+  CameraChoice choice = choose_camera(wish, dataset, images.width, images.height);
   tell_turn(first, used);
-  tell_range(dataset, size);
+  tell_range(dataset, images);
+  return choice;
 }
 
 }  // namespace sslam::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether images and calibration belong together, before the first frame is tracked.
+// The camera of a dataset's images, settled by the first of them before any frame is tracked.
 #pragma once
 
 #include "cli/input/camera_choice.hpp"
@@ -7,8 +7,9 @@
 
 namespace sslam::cli {
 
-// By the first image that can be read: fills in the camera's size where its source leaves it out, and tells
-// when images are turned or stretched on their way in. Throws Error when the sizes differ.
-void fit_camera_to_images(CameraChoice& choice, const io::Dataset& dataset);
+// By the first image that can be read: turns a calibration's size into the images', or makes one up for
+// images that nobody has calibrated. Tells what is turned, scaled or assumed. Throws Error when the camera
+// cannot be theirs.
+[[nodiscard]] CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& dataset);
 
 }  // namespace sslam::cli

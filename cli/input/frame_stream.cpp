@@ -99,11 +99,18 @@ void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
     out.warning = why + "; frame skipped";
     return;
   }
-  // A view without planes is no fault of the input: the run's figures count it, and nobody is warned.
-  const bool fine =
-      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
-  if (!fine && out.warning.empty())
-    out.warning = entry.image + ": " + name(out.report.normals) + "; lines alone for this frame";
+  if (out.warning.empty()) out.warning = normals_warning(entry, out.report.normals);
+}
+
+// Empty: nothing to tell. A view without planes is no fault of the input: the run's figures count it. What is
+// wrong with a source as a whole is told once, and counted in the figures, too.
+std::string FrameStream::normals_warning(const io::FrameEntry& entry, NormalStatus status) {
+  if (status == NormalStatus::kOk || status == NormalStatus::kNoEvidence) return {};
+  const bool whole = status == NormalStatus::kFacesAway || status == NormalStatus::kOutOfRange ||
+                     status == NormalStatus::kTooSmall;
+  if (whole && !told_.insert(status).second) return {};
+  return entry.image + ": " + name(status) + "; lines alone for this frame" +
+         (whole ? ", and for others like it, which metrics.json counts" : "");
 }
 
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {

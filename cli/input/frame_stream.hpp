@@ -9,6 +9,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -43,6 +44,7 @@ class FrameStream {
   void produce();
   [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
   void fill(const io::FrameEntry& entry, ExtractedFrame& out);
+  [[nodiscard]] std::string normals_warning(const io::FrameEntry& entry, NormalStatus status);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
 
   const io::Dataset& dataset_;
@@ -50,6 +52,7 @@ class FrameStream {
   double pace_;
   FrameReader reader_;
   MaskSource masks_;
+  std::set<NormalStatus> told_;  // faults of the source of normals
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();

@@ -16,30 +16,42 @@ namespace sslam::cli {
 
 class ImageCamera {
  public:
-  // Where nothing is known, a pinhole is assumed whose focal length is this share of an image's width.
-  ImageCamera(std::optional<CameraChoice> known, double focal_per_width)
-      : known_(std::move(known)), focal_per_width_(focal_per_width) {}
+  // Where nothing is known, a pinhole is assumed whose focal length is this share of an image's width. Throws
+  // Error when a camera file is wrong.
+  ImageCamera(CameraWish wish, const io::Dataset& dataset, double focal_per_width)
+      : wish_(std::move(wish)),
+        known_(wish_.focal > 0 || wish_.fov > 0 ? std::nullopt : find_camera(wish_.file, dataset)),
+        focal_per_width_(focal_per_width) {}
 
-  // A calibration that leaves the size out is for images of the size of the first.
+  // Of the calibration; empty: it is not known.
+  [[nodiscard]] cv::Size claimed_size() const {
+    return known_ ? cv::Size(known_->camera.width, known_->camera.height) : cv::Size();
+  }
+
+  // The first image's size is that of all. Throws Error when the calibration cannot be that image's.
   [[nodiscard]] Camera<double> of(const cv::Mat& image) {
-    if (!known_) return assumed(image.cols, image.rows);
-    Camera<double>& camera = known_->camera;
-    if (camera.width == 0 || camera.height == 0) {
-      camera.width = image.cols;
-      camera.height = image.rows;
-    }
-    return camera;
+    if (!std::exchange(told_, true)) settle(image.cols, image.rows);
+    return known_ ? known_->camera : assumed(image.cols, image.rows);
   }
 
  private:
-  [[nodiscard]] Camera<double> assumed(int width, int height) {
-    const double focal = focal_per_width_ * width;
-    if (!std::exchange(told_, true))
-      print_note("the camera is not known: assuming a focal length of " + std::to_string(std::lround(focal)) +
-                 " pixels for " + size_text(width, height) + " (--camera gives another)");
-    return {{focal, focal, 0.5 * (width - 1), 0.5 * (height - 1)}, {}, width, height};
+  void settle(int width, int height) {
+    if (auto wished = wished_camera(wish_, width, height)) known_ = std::move(wished);
+    if (!known_) {
+      print_note("the camera is not known: assuming a focal length of " +
+                 std::to_string(std::lround(focal_per_width_ * width)) + " pixels for " +
+                 size_text(width, height) + " (--camera gives another)");
+      return;
+    }
+    fit_camera(known_->camera, width, height, known_->source, known_->notes, known_->warnings);
+    print_notes(*known_);
   }
 
+  [[nodiscard]] Camera<double> assumed(int width, int height) const {
+    return plain_camera(focal_per_width_ * width, width, height, {}).camera;
+  }
+
+  CameraWish wish_;
   std::optional<CameraChoice> known_;
   double focal_per_width_;
   bool told_ = false;

@@ -134,6 +134,17 @@ void write_top_view_file(const fs::path& path, const RunContext& context, const 
   io::write_top_view(path, view);
 }
 
+// How many frames each fault of the source of normals cost; empty without faults.
+Json normal_faults_json(const RunOutcome& outcome) {
+  Json faults = Json::object();
+  for (const FrameRecord& frame : outcome.frames)
+    if (frame.normal_status != NormalStatus::kOk && frame.normal_status != NormalStatus::kNoEvidence) {
+      Json& count = faults[name(frame.normal_status)];
+      count = count.is_null() ? 1 : count.get<int>() + 1;
+    }
+  return faults;
+}
+
 void print_summary(const RunContext& context, const RunOutcome& outcome,
                    const std::optional<io::Evaluation>& evaluation) {
   const Json times = times_json(outcome);
@@ -216,6 +227,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
                   {"frames_apart", outcome.apart.frames},
                   {"states", states_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
+                  {"normal_faults", normal_faults_json(outcome)},
                   {"times", times_json(outcome)}};
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
   if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);

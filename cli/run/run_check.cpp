@@ -42,9 +42,7 @@ io::Dataset open_run_dataset(const RunSettings& settings) {
 }
 
 CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
-  CameraChoice choice = choose_camera(settings.camera, dataset);
-  fit_camera_to_images(choice, dataset);
-  return choice;
+  return camera_for_images({settings.camera, settings.focal, settings.fov}, dataset);
 }
 
 void check_live(const RunSettings& settings, const Preset& preset) {

@@ -18,7 +18,7 @@ namespace sslam::cli {
 // The frames that the settings ask for.
 [[nodiscard]] io::Dataset open_run_dataset(const RunSettings& settings);
 
-// The camera with its size: where its source leaves that out, the first image says it; else they must agree.
+// The camera of images of the first one's size. What is to be told of it stands in the answer.
 [[nodiscard]] CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset);
 
 // Whether the preset has what --live asks for.

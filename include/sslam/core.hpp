@@ -15,6 +15,7 @@
 #include "sslam/core/status.hpp"
 #include "sslam/core/types.hpp"
 #include "sslam/geometry/camera.hpp"
+#include "sslam/geometry/camera_check.hpp"
 #include "sslam/geometry/line2.hpp"
 #include "sslam/geometry/line3.hpp"
 #include "sslam/geometry/manifold.hpp"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images that lost their end, and the choice of a calibration.
+// Images that lost their end.
 #include "cli/input/image_file.hpp"
 
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "cli/input/camera_choice.hpp"
 #include "io/errors.hpp"
 #include "sslam/core/random.hpp"
 #include "support/scratch_folder.hpp"
@@ -65,29 +64,4 @@ TEST_CASE("A file that is no video is refused by name") {
   io::Dataset dataset = io::read_video(scratch.write("walk.mp4", "no video"));
   CHECK(contains(testing::error_of([&] { cli::list_video_frames(dataset); }),
                  "walk.mp4: cannot open this video"));
-}
-
-TEST_CASE("The calibration: option before file before published values") {
-  const testing::ScratchFolder scratch;
-  const std::string yaml = "%YAML:1.0\n---\nCamera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\n";
-  io::Dataset dataset;
-  dataset.layout = io::Layout::kTum;
-  dataset.root = scratch.path();
-  const std::string unknown = testing::error_of([&] { (void)cli::choose_camera("", dataset); });
-  CHECK(testing::is_one_line(unknown));
-  CHECK(contains(unknown, "the camera is not known; pass --camera FILE"));
-  CHECK(contains(unknown, "tum_fr1, tum_fr2, tum_fr3, icl_nuim, 7scenes"));
-
-  dataset.name_hint = "# file: 'rgbd_dataset_freiburg3_desk.bag'";
-  CHECK(cli::choose_camera("", dataset).source == "built in: tum_fr3");
-  CHECK(cli::choose_camera("icl_nuim", dataset).camera.pinhole.fx == 481.2);
-
-  scratch.write("camera.yaml", yaml);
-  const cli::CameraChoice own = cli::choose_camera("", dataset);
-  CHECK(own.camera.pinhole.fx == 500);
-  CHECK(own.depth_factor == 5000);  // published with the recording, absent from the file
-
-  const auto other = scratch.write("other.yaml", yaml + "DepthMapFactor: 1000\n");
-  CHECK(cli::choose_camera(other.string(), dataset).depth_factor == 1000);
-  CHECK_THROWS(cli::choose_camera((scratch.path() / "none.yaml").string(), dataset));
 }

@@ -39,8 +39,9 @@ sslam_normals_refuses("a folder without images" "papers: no dataset here" ${fold
 sslam_normals_refuses("another file" "notes.txt: is neither an image" ${folder}/papers/notes.txt ${tiny})
 sslam_normals_refuses("a broken image" "text.png: cannot decode this image" ${folder}/text.png ${tiny} --out ${folder}/none)
 sslam_normals_refuses("a glob that matches nothing" "no image matches" ${folder}/*.bmp ${tiny})
-sslam_normals_refuses("an image of another camera" "room.jpg: has 320x240 pixels, and the camera 640x480"
-                      ${fixtures}/room.jpg ${tiny} --camera icl_nuim --out ${folder}/none)
+file(WRITE ${folder}/other.yaml "Camera.fx: 260\nCamera.fy: 260\nCamera.cx: 319.5\nCamera.cy: 179.5\nCamera.width: 640\nCamera.height: 360\n")
+sslam_normals_refuses("an image of another camera" "other.yaml: is for 640x360 pixels, and the images have 320x240: another shape"
+                      ${fixtures}/room.jpg ${tiny} --camera ${folder}/other.yaml --out ${folder}/none)
 sslam_normals_refuses("an unknown camera" "absent.yaml" ${fixtures}/room.jpg ${tiny} --camera ${folder}/absent.yaml)
 sslam_normals_refuses("a missing model" "absent.onnx: no such model" ${fixtures}/room.jpg --model ${folder}/absent.onnx)
 sslam_normals_refuses("a model without manifest" "lonely.json: no such manifest" ${fixtures}/room.jpg --model ${folder}/lonely.onnx)

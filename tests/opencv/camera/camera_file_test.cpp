@@ -88,7 +88,9 @@ TEST_CASE("A wrong camera file names file and key and says what would be right")
   check_error("Camera.fx: .Inf\nCamera.fy: 539\nCamera.cx: 320\nCamera.cy: 247\n",
               ": Camera.fx is not finite");
   check_error("Camera.fx: wide\nCamera.fy: 539\nCamera.cx: 320\nCamera.cy: 247\n",
-              ": Camera.fx is not a number");
+              ": line 3: Camera.fx is 'wide', not a number; expected the focal length in pixels");
+  check_error("Camera.fx: 240,6\nCamera.fy: 539\nCamera.cx: 320\nCamera.cy: 247\n",
+              ": line 3: Camera.fx is '240,6', not a number; expected a decimal point: 240.6");
   check_error("Camera.fx: 481.2\nCamera.fy: -480\nCamera.cx: 320\nCamera.cy: 247\n",
               ": Camera.fy is -480; expected the focal length in pixels, greater than 0");
   check_error(std::string(kPinhole) + "Camera.k2: .nan\n",
@@ -98,34 +100,16 @@ TEST_CASE("A wrong camera file names file and key and says what would be right")
   check_error(std::string(kPinhole) + "Camera.width: 640.5\n",
               ": Camera.width is 640.5; expected a whole number of pixels");
   check_error(std::string(kPinhole) + "Camera.height: -480\n", ": Camera.height is -480; expected");
-  check_error(std::string(kPinhole) + "Camera.height: 0.5\n",
-              ": Camera.height is 0.5; expected a whole number of pixels");
-  check_error(std::string(kPinhole) + "Camera.height: 65536\n", ": Camera.height is 65536; expected");
+  check_error(std::string(kPinhole) + "Camera.height: 240.7\n",
+              ": line 7: Camera.height is 240.7; expected a whole number of pixels");
+  check_error("Camera.fx: 535\nCamera.fx: 539\n", ": line 4: Camera.fx is given a second time, after line 3");
   check_error(std::string("Camera.type: \"KannalaBrandt8\"\n") + kPinhole,
-              ": Camera.type is 'KannalaBrandt8'; expected 'PinHole'");
+              ": the lens model 'KannalaBrandt8' is fitted within the image; expected its width and height");
 }
 
 TEST_CASE("What is no camera file at all") {
   CHECK(error_of("/nowhere/camera.yaml") == "/nowhere/camera.yaml: no such camera file");
   CHECK(error_of("/") == "/: is not a file; expected a camera file");
-  check_error("- 1\n- 2\n", ": holds a list or a value instead of keys; expected lines such as");
-  check_error("Camera.fx: [1, 2\n  - {broken\n", "not a YAML file that OpenCV reads");
-}
-
-TEST_CASE("A camera file that is deep or long is refused before it is parsed") {
-  const auto many = [](const std::string& part) {
-    std::string text;
-    for (int i = 0; i < 20000; ++i) text += part;
-    return text;
-  };
-  const auto stairs = [](std::size_t levels) {
-    std::string text;
-    for (std::size_t i = 0; i < levels; ++i) text += std::string(i, ' ') + "a:\n";
-    return text;
-  };
-  for (const std::string& deep : {"Camera.fx: " + many("["), "Camera.fx: " + many("{a: "), many("- "),
-                                  many("a: "), many("? "), stairs(400), "Camera.fx: [" + many("\"]\", [")})
-    check_error(deep, ": is nested too deeply; expected keys with numbers");
-  check_error(std::string(kPinhole) + std::string((1 << 20) + 1, '#'), ": is longer than 1 MB");
-  check_error(stairs(256), "");  // as deep as may be
+  check_error("Camera.fx: [1, 2\n  - {broken\n", ": line 3: the '[' that opens here is not closed");
+  check_error("hello: world\n", ": no calibration of a known kind; expected Camera.fx, ");
 }

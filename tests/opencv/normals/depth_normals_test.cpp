@@ -158,6 +158,8 @@ TEST_CASE("unfit depth is refused and leaves no normals") {
   CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kWrongSize);
   input.depth = cv::Mat(480, 640, CV_8UC3, cv::Scalar(1));
   CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kWrongType);
+  input.depth = cv::Mat(480, 640, CV_16U, cv::Scalar(20));  // 4 mm: somebody's factor is wrong
+  CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kOutOfRange);
   input.depth = cv::Mat(480, 640, CV_16U, cv::Scalar(0));
   CHECK(source.fill(input, depth_camera(), field) == NormalStatus::kOk);
   CHECK(field.size() == 0);

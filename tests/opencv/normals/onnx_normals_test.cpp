@@ -219,7 +219,7 @@ TEST_CASE("a depth output becomes normals", "[normals]") {
   }
 }
 
-TEST_CASE("a depth output that is not finite is bad output, and without planes no evidence", "[normals]") {
+TEST_CASE("a depth output that is not finite is bad output, and one out of range is told", "[normals]") {
   const testing::ScratchFolder folder;
   OnnxNormals source(changed(folder, fixtures() / "tiny_normals.json",
                              {{"\"normals\"", "\"depth\""},
@@ -228,5 +228,46 @@ TEST_CASE("a depth output that is not finite is bad output, and without planes n
   const auto cam = camera(64, 48, 52);
   fill(source, painted(0, 255, 0), cam, NormalStatus::kBadOutput);
   CHECK(source.report().bad_share == 1);
-  fill(source, painted(0, 127, 0), cam, NormalStatus::kNoEvidence);  // too near
+  fill(source, painted(0, 127, 0), cam, NormalStatus::kOutOfRange);  // too near
+}
+
+TEST_CASE("a network whose normals point away is told as such", "[normals]") {
+  const testing::ScratchFolder folder;
+  OnnxNormals source(changed(
+      folder, fixtures() / "tiny_normals.json",
+      {{"\"signs\": [\n      1,\n      1,\n      1", "\"signs\": [\n      -1,\n      -1,\n      -1"}}));
+  fill(source, painted(128, 128, 128), camera(64, 48, 50), NormalStatus::kFacesAway);
+  CHECK(source.report().away_share == 1);
+}
+
+TEST_CASE("an output's planes are found in every order of its axes", "[normals]") {
+  const int nchw[] = {1, 3, 2, 4}, nhwc[] = {1, 2, 4, 3};
+  cv::Mat first(4, nchw, CV_32F), last(4, nhwc, CV_32F);
+  for (int c = 0; c < 3; ++c)
+    for (int v = 0; v < 2; ++v)
+      for (int u = 0; u < 4; ++u) {
+        const auto value = static_cast<float>(100 * c + 10 * v + u);
+        first.ptr<float>(0, c, v)[u] = value;
+        last.ptr<float>(0, v, u)[c] = value;
+      }
+  const int chw[] = {3, 2, 4}, hwc[] = {2, 4, 3};
+  for (const cv::Mat& blob : {first, last, first.reshape(1, 3, chw), last.reshape(1, 3, hwc)}) {
+    const auto planes = output_planes(blob, 3);
+    REQUIRE(planes.size() == 3);
+    REQUIRE(planes[0].size() == cv::Size(4, 2));
+    CHECK(planes[0](0, 3) == 3);
+    CHECK(planes[1](1, 0) == 110);
+    CHECK(planes[2](1, 3) == 213);
+  }
+  const cv::Mat depth(2, 4, CV_32F, cv::Scalar(5));
+  const int with_channel[] = {1, 2, 4}, with_both[] = {1, 1, 2, 4};
+  for (const cv::Mat& blob : {depth, depth.reshape(1, 3, with_channel), depth.reshape(1, 4, with_both)}) {
+    const auto planes = output_planes(blob, 1);
+    REQUIRE(planes.size() == 1);
+    CHECK(planes[0].size() == cv::Size(4, 2));
+    CHECK(planes[0](1, 2) == 5);
+  }
+  CHECK(output_planes(first, 1).empty());
+  CHECK(output_planes(depth, 3).empty());
+  CHECK(output_planes(cv::Mat(2, 4, CV_64F), 1).empty());
 }

@@ -36,7 +36,8 @@ struct KnownCamera {
 
 // The ROS-based colour calibrations on the TUM RGB-D benchmark's page of file formats (its depth images are
 // registered to colour; fr3 is rectified), ICL-NUIM with its fy of -480 made positive (our images are
-// y-down), and the values of the 7-Scenes page, which it gives for the depth camera.
+// y-down). The 585 of the 7-Scenes page is its depth camera's: the colour images have the 525 that OpenNI
+// takes for that sensor.
 [[nodiscard]] inline const std::array<KnownCamera, 5>& known_cameras() {
   static const std::array<KnownCamera, 5> cameras{{
       {"tum_fr1", "TUM RGB-D, freiburg1",
@@ -45,7 +46,7 @@ struct KnownCamera {
        make_camera(520.9, 521.0, 325.1, 249.7, 0.2312, -0.7849, -0.0033, -0.0001, 0.9172), 5000, 30},
       {"tum_fr3", "TUM RGB-D, freiburg3", make_camera(535.4, 539.2, 320.1, 247.6), 5000, 30},
       {"icl_nuim", "ICL-NUIM", make_camera(481.2, 480.0, 319.5, 239.5), 5000, 30},
-      {"7scenes", "7-Scenes", make_camera(585, 585, 320, 240), 1000, 30},
+      {"7scenes", "7-Scenes", make_camera(525, 525, 320, 240), 1000, 30},
   }};
   return cameras;
 }

@@ -59,10 +59,12 @@ class DepthNormals {
     if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) return NormalStatus::kWrongType;
     const double scale = static_cast<double>(depth.cols) / camera.width;
     if (std::abs(scale * camera.height - depth.rows) > 1) return NormalStatus::kWrongSize;
+    const double factor = depth.depth() == CV_16U ? input.depth_factor : 1;
+    if (out_of_range(depth, factor)) return NormalStatus::kOutOfRange;
     if (depth.depth() == CV_16U)
-      build_blocks(view_of<std::uint16_t>(depth), input.depth_factor);
+      build_blocks(view_of<std::uint16_t>(depth), factor);
     else
-      build_blocks(view_of<float>(depth), 1);
+      build_blocks(view_of<float>(depth), factor);
     lens_.prepare(camera, blocks_.columns(), blocks_.rows(), InverseDepthBlocks::kBlock, scale);
     focal_ = camera.pinhole.fx * scale;
     grid_.reset(blocks_.columns(), blocks_.rows());
@@ -73,6 +75,15 @@ class DepthNormals {
   }
 
  private:
+  // Whether next to nothing of what was measured can be used. An image without any measurement is no fault.
+  [[nodiscard]] bool out_of_range(const cv::Mat& depth, double factor) const {
+    constexpr double kLeast = 0.01;  // of the pixels with a measurement
+    cv::Mat usable;
+    cv::inRange(depth, options.min_depth * factor, options.max_depth * factor, usable);
+    const int measured = cv::countNonZero(depth > 0);
+    return measured > 0 && cv::countNonZero(usable) < kLeast * measured;
+  }
+
   template <class Pixel>
   void build_blocks(ImageView<Pixel> depth, double factor) {
     blocks_.build(depth, factor, options.min_depth, options.max_depth, 3 * options.noise);

@@ -20,6 +20,7 @@ enum class NormalStatus : std::uint8_t {
   kFacesAway,   // most normals point away from the camera: the axes are stored in another order or sign
   kTooSmall,    // the image has too few pixels for the network
   kBadOutput,   // the network's values are not finite, not of unit length, or not in the range of their kind
+  kOutOfRange,  // hardly any depth lies in the range that is used: its factor is wrong, or the room is huge
   kNoEvidence,  // nothing is wrong, but too few pixels are planar, or their normals disagree
 };
 
@@ -41,6 +42,8 @@ enum class NormalStatus : std::uint8_t {
       return "the image is too small for the network of normals";
     case NormalStatus::kBadOutput:
       return "the network's output is not finite, not of unit length or not in [0, 1]";
+    case NormalStatus::kOutOfRange:
+      return "hardly any depth lies in the range that is used (is its factor right?)";
     case NormalStatus::kNoEvidence:
       return "too few planar pixels, or normals that disagree: no Manhattan evidence";
   }

@@ -15,6 +15,7 @@
 #include "sslam/opencv/normals/network_view.hpp"
 #include "sslam/opencv/normals/normal_manifest.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
+#include "sslam/opencv/normals/output_planes.hpp"
 
 namespace sslam {
 
@@ -43,27 +44,31 @@ class OnnxNetwork {
     to_blob(view_.warp(image));
     net_.setInput(blob_);
     net_.forward(blobs_, wanted_);
+    planes_.resize(blobs_.size());
+    for (std::size_t i = 0; i < blobs_.size(); ++i) planes_[i] = output_planes(blobs_[i], channels(i));
     return NormalStatus::kOk;
   }
 
   // Planes of the last run, valid until the next.
-  [[nodiscard]] cv::Mat_<float> channel(int c) { return plane(0, c); }  // of normals or depth
-  [[nodiscard]] cv::Mat_<float> mask() { return manifest_.mask.empty() ? cv::Mat_<float>() : plane(1, 0); }
-  [[nodiscard]] cv::Mat_<float> confidence() {
-    return manifest_.confidence.empty() ? cv::Mat_<float>() : plane(wanted_.size() - 1, 0);
+  [[nodiscard]] const cv::Mat_<float>& channel(std::size_t c) const { return planes_[0][c]; }
+  [[nodiscard]] cv::Mat_<float> mask() const {
+    return manifest_.mask.empty() ? cv::Mat_<float>() : planes_[1][0];
+  }
+  [[nodiscard]] cv::Mat_<float> confidence() const {
+    return manifest_.confidence.empty() ? cv::Mat_<float>() : planes_.back()[0];
   }
 
   // Of the outputs' pixels.
   [[nodiscard]] Pinhole<double> output_pinhole() const {
-    const double sx = static_cast<double>(blobs_[0].size[3]) / manifest_.input.width,
-                 sy = static_cast<double>(blobs_[0].size[2]) / manifest_.input.height;
+    const double sx = static_cast<double>(channel(0).cols) / manifest_.input.width,
+                 sy = static_cast<double>(channel(0).rows) / manifest_.input.height;
     const Pinhole<double>& p = view_.pinhole();
     return {p.fx * sx, p.fy * sy, (p.cx + 0.5) * sx - 0.5, (p.cy + 0.5) * sy - 0.5};
   }
   // Whether an output's pixel shows something that the camera sees.
   [[nodiscard]] bool inside(int u, int v) const {
-    return view_.inside((2 * u + 1) * manifest_.input.width / (2 * blobs_[0].size[3]),
-                        (2 * v + 1) * manifest_.input.height / (2 * blobs_[0].size[2]));
+    return view_.inside((2 * u + 1) * manifest_.input.width / (2 * channel(0).cols),
+                        (2 * v + 1) * manifest_.input.height / (2 * channel(0).rows));
   }
 
  private:
@@ -124,21 +129,26 @@ class OnnxNetwork {
                                  std::to_string(in.height) + " pixels: " + first_line(error));
       }
     }
-    check_shape(0, manifest_.kind == NetworkOutput::kNormals ? 3 : 1, "output.name");
+    check_shape(0, "output.name");
     for (std::size_t i = 1; i < wanted_.size(); ++i)
-      check_shape(i, 1, i == 1 && !manifest_.mask.empty() ? "output.mask" : "output.confidence");
+      check_shape(i, i == 1 && !manifest_.mask.empty() ? "output.mask" : "output.confidence");
   }
 
-  void check_shape(std::size_t i, int channels, const char* field) const {
-    const cv::Mat& blob = blobs_[i];
-    const bool fits = blob.dims == 4 && blob.size[0] == 1 && blob.size[1] == channels &&
-                      blob.type() == CV_32F && blob.size[2] == blobs_[0].size[2] &&
-                      blob.size[3] == blobs_[0].size[3] && blob.size[3] > 1;
-    if (fits) return;
+  [[nodiscard]] std::size_t channels(std::size_t output) const {
+    return output == 0 && manifest_.kind == NetworkOutput::kNormals ? 3 : 1;
+  }
+
+  void check_shape(std::size_t i, const char* field) const {
+    const auto& planes = planes_[i];
+    if (!planes.empty() && !planes_[0].empty() && planes[0].size() == planes_[0][0].size() &&
+        planes[0].cols > 1)
+      return;
     std::string shape;
-    for (int d = 0; d < blob.dims; ++d) shape += (d > 0 ? "x" : "") + std::to_string(blob.size[d]);
-    fail(manifest_.file, std::string(field) + ": '" + wanted_[i] + "' has shape " + shape + ", expected 1x" +
-                             std::to_string(channels) + "xHxW with the same H and W for all outputs");
+    for (int d = 0; d < blobs_[i].dims; ++d) shape += (d > 0 ? "x" : "") + std::to_string(blobs_[i].size[d]);
+    const std::string expected =
+        channels(i) == 3 ? "1x3xHxW, 3xHxW, 1xHxWx3 or HxWx3" : "1x1xHxW, 1xHxW or HxW";
+    fail(manifest_.file, std::string(field) + ": '" + wanted_[i] + "' has shape " + shape + ", expected " +
+                             expected + " with the same H and W for all outputs");
   }
 
   void to_blob(const cv::Mat& bgr) {
@@ -153,15 +163,11 @@ class OnnxNetwork {
     }
   }
 
-  [[nodiscard]] cv::Mat_<float> plane(std::size_t output, int c) {
-    cv::Mat& b = blobs_[output];
-    return cv::Mat(b.size[2], b.size[3], CV_32F, b.ptr<float>(0, c));
-  }
-
   NormalManifest manifest_;
   cv::dnn::Net net_;
   std::vector<std::string> wanted_;  // outputs: normals or depth, then mask and confidence where there are
   std::vector<cv::Mat> blobs_;       // of wanted_
+  std::vector<std::vector<cv::Mat_<float>>> planes_;  // of blobs_
   NetworkView view_;
   cv::Mat blob_, channel_;
 };

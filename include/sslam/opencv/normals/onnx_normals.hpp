@@ -43,7 +43,8 @@ static_assert(Described<OnnxNormalsOptions>);
 // Of the last frame.
 struct OnnxNormalsReport {
   NormalEvidence evidence;
-  double bad_share = 0;  // of the normals that are not finite or not unit; of the depth that is not finite
+  double bad_share = 0;   // of the normals that are not finite or not unit; of the depth that is not finite
+  double away_share = 0;  // of the unit normals that the camera could see, those that point away from it
   double bad_weight_share = 0;  // of mask and confidence, the worse of the two, that is not in [0, 1]
 };
 
@@ -85,10 +86,13 @@ class OnnxNormals {
     const NormalStatus status = network_.run(image, camera);
     if (status != NormalStatus::kOk) return status;
     decode(dense);
-    return judge(std::max(report_.bad_share, report_.bad_weight_share));
+    const NormalStatus answer = judge(std::max(report_.bad_share, report_.bad_weight_share));
+    return answer == NormalStatus::kOk && report_.away_share > kMostAway ? NormalStatus::kFacesAway : answer;
   }
 
  private:
+  static constexpr double kMostAway = 0.5;  // a visible surface faces the camera: beyond, a sign is wrong
+
   static std::filesystem::path manifest_of(std::filesystem::path file) {
     if (file.extension() != ".onnx") return file;
     std::error_code ignored;
@@ -126,7 +130,7 @@ class OnnxNormals {
     dense.planar = network_.mask().clone();
     dense.confidence = network_.confidence().clone();
     const double low = m.range[0], to_unit = 2 / (m.range[1] - low);
-    std::size_t bad = 0;
+    std::size_t bad = 0, judged = 0, away = 0;
     for (int v = 0; v < dense.normal.rows; ++v) {
       for (int u = 0; u < dense.normal.cols; ++u) {
         Vec3<double> n;
@@ -135,8 +139,11 @@ class OnnxNormals {
         const double norm = n.norm();
         const bool unit = std::abs(norm - 1) <= options.max_norm_error;
         bad += unit ? 0U : 1U;
-        const bool keep = unit && std::isfinite(dense.weight(v, u)) && network_.inside(u, v) &&
-                          n.dot(dense.pinhole.unproject(Vec2<double>(u, v))) < 0;
+        const bool seen = unit && std::isfinite(dense.weight(v, u)) && network_.inside(u, v);
+        const bool faces = n.dot(dense.pinhole.unproject(Vec2<double>(u, v))) < 0;
+        judged += seen ? 1U : 0U;
+        away += seen && !faces ? 1U : 0U;
+        const bool keep = seen && faces;
         if (keep) n /= norm;
         dense.normal(v, u) =
             keep ? cv::Vec3f(static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z()))
@@ -144,6 +151,7 @@ class OnnxNormals {
       }
     }
     report_.bad_share = static_cast<double>(bad) / static_cast<double>(dense.normal.total());
+    report_.away_share = static_cast<double>(away) / static_cast<double>(std::max<std::size_t>(judged, 1));
     report_.bad_weight_share = std::max(share_outside(dense.planar), share_outside(dense.confidence));
   }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options that say which camera took the images.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "sslam/io/datasets/known_cameras.hpp"
+
+namespace sslam::cli {
+
+inline void add_camera_options(CLI::App& command, std::string& file, double& focal, double& fov) {
+  CLI::Option* const camera =
+      command
+          .add_option(
+              "--camera", file,
+              "Camera file (ORB-SLAM, OpenCV, ROS, Kalibr, EuRoC, COLMAP, ...) or built-in calibration: " +
+                  io::known_camera_names())
+          ->type_name("FILE");
+  CLI::Option* const pixels =
+      command
+          .add_option("--focal", focal,
+                      "Focal length in pixels, of a camera without calibration and distortion")
+          ->check(CLI::PositiveNumber)
+          ->type_name("PIXELS")
+          ->excludes(camera);
+  command.add_option("--fov", fov, "As --focal, by the field of view across the image")
+      ->check(CLI::Range(3.0, 150.0))
+      ->type_name("DEGREES")
+      ->excludes(camera)
+      ->excludes(pixels);
+}
+
+}  // namespace sslam::cli

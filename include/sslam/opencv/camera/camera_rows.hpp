@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Calibrations as rows of numbers: COLMAP's cameras.txt, the camera.txt of DSO and of mono_dataset, a camera
+// matrix, and "fx fy cx cy k1 k2 p1 p2 k3".
+#pragma once
+
+#include <cctype>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sslam/opencv/camera/matrix_cameras.hpp"
+
+namespace sslam {
+namespace detail {
+
+// Words by blanks, row after row; comments (#) and empty rows are left out, and what follows the first few.
+using WordRows = std::vector<std::vector<std::string>>;
+
+[[nodiscard]] inline WordRows word_rows(const std::string& text) {
+  WordRows rows;
+  std::istringstream lines(text);
+  constexpr std::size_t kEnough = 6;  // a matrix has four
+  for (std::string line; rows.size() < kEnough && std::getline(lines, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::vector<std::string> row;
+    for (std::string word; words >> word;) row.push_back(word);
+    if (!row.empty()) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+[[nodiscard]] inline std::vector<double> row_numbers(const CameraKeys& keys,
+                                                     const std::vector<std::string>& row, std::size_t from) {
+  std::vector<double> values;
+  for (std::size_t i = from; i < row.size(); ++i) {
+    const auto value = number_of(row[i]);
+    if (!value || !std::isfinite(*value)) keys.fail("'" + row[i] + "' is no finite number");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+inline void demand_numbers(const CameraKeys& keys, const std::string& model, std::size_t found,
+                           std::size_t wanted) {
+  if (found < wanted)
+    keys.fail(model + " has " + std::to_string(found) + " numbers; expected " + std::to_string(wanted));
+}
+
+// fx and fy, positive.
+inline void set_pinhole(const CameraKeys& keys, double fx, double fy, double cx, double cy,
+                        CameraFile& file) {
+  if (!(fx > 0) || !(fy > 0))
+    keys.fail("the focal lengths are " + short_text(fx) + " and " + short_text(fy) +
+              "; expected pixels, greater than 0");
+  file.camera.pinhole = {fx, fy, cx, cy};
+}
+
+inline int row_pixels(const CameraKeys& keys, double value) {
+  return keys.whole_pixels(TextNode{}, "the image's width or height", value);
+}
+
+// CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]. The first pixel's centre is (0.5, 0.5).
+[[nodiscard]] inline CameraFile read_colmap(const CameraKeys& keys, const WordRows& rows) {
+  CameraFile file;
+  const std::vector<std::string>& row = rows.front();
+  const std::string& model = row[1];
+  const std::vector<double> v = row_numbers(keys, row, 2);
+  demand_numbers(keys, model, v.size(), 5);
+  file.camera.width = row_pixels(keys, v[0]);
+  file.camera.height = row_pixels(keys, v[1]);
+  const bool one_focal = model.starts_with("SIMPLE_") || model == "RADIAL" || model.starts_with("RADIAL_");
+  const std::size_t first = one_focal ? 5 : 6;
+  demand_numbers(keys, model, v.size(), first);
+  set_pinhole(keys, v[2], one_focal ? v[2] : v[3], v[first - 2] - 0.5, v[first - 1] - 0.5, file);
+  std::vector<double> lens(v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
+  set_lens(keys, model, lens, file);
+  if (rows.size() > 1) file.notes.push_back(keys.file() + ": has several cameras; the first is taken");
+  return file;
+}
+
+// "[MODEL] fx fy cx cy omega or k1 k2 p1 p2", then "width height"; the first row may count in shares of the
+// image.
+[[nodiscard]] inline CameraFile read_dso(const CameraKeys& keys, const WordRows& rows) {
+  CameraFile file;
+  const bool named = std::isalpha(static_cast<unsigned char>(rows[0][0][0])) != 0;
+  std::vector<double> v = row_numbers(keys, rows[0], named ? 1 : 0);
+  demand_numbers(keys, "the first row", v.size(), 4);
+  const std::vector<double> size = row_numbers(keys, rows[1], 0);
+  file.camera.width = row_pixels(keys, size[0]);
+  file.camera.height = row_pixels(keys, size[1]);
+  if (v[2] < 1 && v[3] < 1) {
+    v[0] *= size[0];
+    v[1] *= size[1];
+    v[2] = v[2] * size[0] - 0.5;
+    v[3] = v[3] * size[1] - 0.5;
+  }
+  set_pinhole(keys, v[0], v[1], v[2], v[3], file);
+  std::vector<double> lens(v.begin() + 4, v.end());
+  const std::string model = named ? rows[0][0] : lens.size() > 1 ? "RadTan" : "FOV";
+  if (lens.size() == 1 && lens[0] == 0) return file;  // omega: the lens is straight
+  set_lens(keys, model, lens, file);
+  return file;
+}
+
+// Nothing where the text is of none of these kinds.
+[[nodiscard]] inline std::optional<CameraFile> read_camera_rows(const std::string& text,
+                                                                const std::string& path) {
+  const WordRows rows = word_rows(text);
+  if (rows.empty()) return std::nullopt;
+  const TextNode none;
+  const CameraKeys keys(none, path);
+  const auto numeric = [](const std::vector<std::string>& row, std::size_t from) {
+    return row.size() > from &&
+           std::all_of(row.begin() + static_cast<std::ptrdiff_t>(from), row.end(),
+                       [](const std::string& word) { return number_of(word).has_value(); });
+  };
+  const std::vector<std::string>& first = rows.front();
+  if (first.size() >= 5 && numeric({first[0]}, 0) &&
+      std::isupper(static_cast<unsigned char>(first[1][0])) != 0)
+    return read_colmap(keys, rows);
+  const bool size_next = rows.size() > 1 && rows[1].size() == 2 && numeric(rows[1], 0);
+  if (size_next && (numeric(first, 0) || (numeric(first, 1) && first[0].find(':') == std::string::npos)))
+    return read_dso(keys, rows);
+  if (!numeric(first, 0)) return std::nullopt;
+  std::vector<double> all;
+  for (const std::vector<std::string>& row : rows)
+    for (const double value : row_numbers(keys, row, 0)) all.push_back(value);
+  CameraFile file;
+  if (rows.size() == 3 || rows.size() == 4) {
+    set_matrix(keys, "the camera matrix", all, file);
+    return file;
+  }
+  if (rows.size() > 1 || (all.size() != 4 && all.size() != 8 && all.size() != 9))
+    keys.fail(
+        "rows of numbers that are no calibration; expected fx fy cx cy with k1 k2 p1 p2 k3, or a 3x3 matrix");
+  set_pinhole(keys, all[0], all[1], all[2], all[3], file);
+  set_lens(keys, "plumb_bob", {all.begin() + 4, all.end()}, file);
+  return file;
+}
+
+}  // namespace detail
+}  // namespace sslam

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Calibrations as matrices and lists of numbers: OpenCV, ROS, Open3D, KITTI, Kalibr, EuRoC and TUM-VI.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sslam/opencv/camera/named_cameras.hpp"
+
+namespace sslam {
+namespace detail {
+
+// A 3x3 or 4x4 matrix, or KITTI's 3x4, by rows; by columns where it is so stored (Open3D).
+inline void set_matrix(const CameraKeys& keys, std::string_view key, const std::vector<double>& m,
+                       CameraFile& file) {
+  const std::size_t n = m.size() == 9 ? 3 : 4;
+  if (m.size() != 9 && m.size() != 12 && m.size() != 16)
+    keys.fail(keys.where() + std::string(key) + " has " + std::to_string(m.size()) +
+              " numbers; expected the 9 of a camera matrix: fx 0 cx 0 fy cy 0 0 1");
+  const bool by_columns = m.size() == 9 && m[2] == 0 && m[5] == 0 && (m[6] != 0 || m[7] != 0);
+  file.camera.pinhole = {m[0], m[n + 1], by_columns ? m[6] : m[2], by_columns ? m[7] : m[n + 2]};
+  const Pinhole<double>& p = file.camera.pinhole;
+  const bool skewed = m[n] != 0 || m[1] != 0, whole = m[2 * n + 2] == 1;
+  if (!(p.fx > 0) || !(p.fy > 0) || skewed || !whole)
+    keys.fail(keys.where() + std::string(key) +
+              " is no camera matrix; expected fx 0 cx 0 fy cy 0 0 1, with fx and fy greater than 0");
+}
+
+// OpenCV's FileStorage and the samples that write it; ROS camera_info as a file or as a message; Open3D.
+inline CameraFile read_matrix_camera(const CameraKeys& keys, const CameraKeys::Names& matrix) {
+  CameraFile file;
+  set_matrix(keys, matrix.front(), keys.numbers(matrix, "a camera matrix"), file);
+  file.camera.width = keys.optional_pixels({"image_width", "image_Width", "width", "w"});
+  file.camera.height = keys.optional_pixels({"image_height", "image_Height", "height", "h"});
+  const CameraKeys::Names lens{"distortion_coefficients",
+                               "Distortion_Coefficients",
+                               "distortion_coeffs",
+                               "distCoeffs",
+                               "dist_coeffs",
+                               "distortion",
+                               "dist",
+                               "D",
+                               "d"};
+  std::string model = keys.text({"distortion_model", "model"});
+  if (keys.optional({"fisheye_model", "Fisheye"}, 0, "0 or 1") != 0) model = "fisheye";
+  const std::vector<double> values = keys.numbers(lens, "distortion coefficients");
+  if (model.empty() && values.size() > 5) model = "rational";
+  set_lens(keys, model.empty() ? "plumb_bob" : model, values, file);
+  return file;
+}
+
+// Kalibr's cam0, and the sensor.yaml of EuRoC, TUM-VI and ASL.
+inline CameraFile read_kalibr(const CameraKeys& keys) {
+  CameraFile file;
+  const std::string camera = keys.text({"camera_model"});
+  if (!camera.empty() && plain_word(camera) != "pinhole") refuse_lens(keys, camera);
+  const std::vector<double> values = keys.numbers({"intrinsics"}, "fx fy cx cy");
+  if (values.size() != 4 || !(values[0] > 0) || !(values[1] > 0))
+    keys.fail(keys.where() + "intrinsics: expected the four numbers fx fy cx cy, fx and fy greater than 0");
+  file.camera.pinhole = {values[0], values[1], values[2], values[3]};
+  const std::vector<double> size = keys.numbers({"resolution"}, "the width and the height in pixels");
+  if (size.size() == 2) {
+    const TextNode& node = *keys.map().find("resolution");
+    file.camera.width = keys.whole_pixels(node, "resolution", size[0]);
+    file.camera.height = keys.whole_pixels(node, "resolution", size[1]);
+  } else if (!size.empty()) {
+    keys.fail(keys.where() + "resolution: expected two numbers, the width and the height in pixels");
+  }
+  set_lens(keys, keys.text({"distortion_model"}),
+           keys.numbers({"distortion_coeffs", "distortion_coefficients"}, "distortion coefficients"), file);
+  file.frame_rate = keys.optional_positive({"rate_hz"}, "frames a second");
+  static const std::vector<std::string> known{
+      "camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "distortion_coefficients",
+      "resolution",   "rate_hz",    "cam_overlaps",     "rostopic",          "timeshift_cam_imu",
+      "T_cam_imu",    "T_cn_cnm1",  "sensor_type",      "comment",           "T_BS",
+      "line-delay",   "line_delay", "T_imu_cam"};
+  note_unknown(keys, "", known, file);
+  return file;
+}
+
+}  // namespace detail
+}  // namespace sslam
