@@ -200,8 +200,9 @@ TEST_CASE("Numbered images are ICL-NUIM's where something says so") {
   }
   SECTION("a ground truth in seconds is TUM RGB-D's without its rgb.txt") {
     scratch.write("groundtruth.txt", "# stamps\n0" + std::string(kIdentity) + "0.5" + kIdentity);
-    scratch.write("associations.txt", "0.5 rgb/1.png 0.52 depth/1.png\n");
     CHECK(refused());
+    scratch.write("associations.txt", "0.5 rgb/1.png 0.52 depth/1.png\n");
+    CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kTum);
     scratch.write("rgb.txt", "0 rgb/0.png\n0.5 rgb/1.png\n");
     CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kTum);
   }

@@ -281,8 +281,8 @@ TEST_CASE("Doubtful figures say why") {
     inverse[i].world_from_cam = truth[i].world_from_cam.inverse();
     line[i].world_from_cam.translation = Vec3<double>(0.1 * static_cast<double>(i), 0, 0);
     thousandth[i].world_from_cam.translation *= 1e-3;
-    aimless[i].world_from_cam.translation = {random.uniform(-1, 1), random.uniform(-1, 1),
-                                             random.uniform(-1, 1)};
+    aimless[i].world_from_cam.translation =
+        Vec3<double>{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
   }
   CHECK(contains(notes(truth, w_first, kScaled), "the estimate's quaternions seem to have w first"));
   CHECK(contains(notes(w_first, truth, kScaled), "the ground truth's quaternions seem to have w first"));

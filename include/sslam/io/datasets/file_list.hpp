@@ -41,6 +41,7 @@ namespace file_list_detail {
   for (std::size_t at = absolute ? name.find('/') : 0; at != std::string::npos && at < name.size();) {
     const std::size_t start = name[at] == '/' ? at + 1 : at;
     if (is_file(root / name.substr(start))) return (root / name.substr(start)).string();
+    if (!absolute) break;
     at = name.find('/', start);
   }
   return (root / name).string();

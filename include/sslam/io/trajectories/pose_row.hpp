@@ -41,6 +41,7 @@ inline constexpr std::string_view kPoseRows =
                                                    "lost", "1.#qnan", "-1.#ind", "1.#inf"};
   std::string lower(cell);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (lower.starts_with("nan") || lower.starts_with("-nan")) return true;  // and such as -nan(ind)
   return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
 }
 
