@@ -8,6 +8,7 @@
 #include "cli/input/camera_choice.hpp"
 #include "io/errors.hpp"
 #include "sslam/core/random.hpp"
+#include "sslam/io/datasets/video.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;
