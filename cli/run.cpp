@@ -144,7 +144,7 @@ void add_run_command(CLI::App& app) {
           "--mask", s->mask,
           "Image whose pixels of 0 are left out of all frames (a robot's own parts, burnt-in text), or "
           "a folder with such an image for each frame, NAME.png")
-      ->type_name("PATH");
+      ->type_name("FILE");
   std::string presets = "What the pipeline is made of:";
   std::vector<std::string> names;
   for (const Preset& preset : all_presets()) {

@@ -29,7 +29,13 @@ bool open_image(const fs::path& path, std::vector<std::uint8_t>& bytes, ImageHea
     why = path.string() + ": no such image";
     return false;
   }
-  bytes.resize(static_cast<std::size_t>(fs::file_size(path, error)));
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > kMostImageBytes) {
+    why =
+        path.string() + ": no image; its file has more than " + std::to_string(kMostImageBytes >> 20) + " MB";
+    return false;
+  }
+  bytes.resize(error ? 0 : static_cast<std::size_t>(size));
   std::ifstream file(path, std::ios::binary);
   if (error ||
       !file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {

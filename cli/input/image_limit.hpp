@@ -9,4 +9,7 @@ namespace sslam::cli {
 // More than any camera of a robot or a phone gives. A calibration for larger images lets these in.
 inline constexpr std::int64_t kMostPixels = 200'000'000;
 
+// Of an image's file: enough for so many pixels of 16 bit without compression.
+inline constexpr std::uintmax_t kMostImageBytes = std::uintmax_t{1} << 31;
+
 }  // namespace sslam::cli

@@ -89,7 +89,7 @@ TEST_CASE("a video's frames are those that are there, whatever the container cla
     const io::Dataset dataset = open_video(path);
     REQUIRE(dataset.frames.size() == 7);
     CHECK(dataset.frames[6].stamp == Approx(0.6));
-    CHECK(dataset.warnings.size() == (count[0] == '\xff' ? 1 : 0));
+    CHECK(dataset.warnings.size() == (count[0] == '\xff' ? 1U : 0U));
     CHECK(open_video(path, 3).frames.size() == 3);
     const std::vector<int> values = greys(dataset);
     for (int i = 0; i < 7; ++i) CHECK(values[static_cast<std::size_t>(i)] == Approx(10 * i).margin(4));

@@ -7,6 +7,7 @@
 
 #include "io/errors.hpp"
 #include "sslam/core/random.hpp"
+#include "sslam/io/datasets/video.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace sslam;
