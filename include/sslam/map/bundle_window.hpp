@@ -25,8 +25,7 @@ struct BundleWindowOptions {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("max_free", self.max_free, Unit::kCount, 1, 1e6, "keyframes that move");
-    visit("max_held", self.max_held, Unit::kCount, 0, 1e6,
-          "keyframes around them that stay where they are");
+    visit("max_held", self.max_held, Unit::kCount, 0, 1e6, "keyframes around them that stay where they are");
     visit("planes", self.planes, Unit::kCount, 0, 1, "1: points and lines are tied to their planes");
     visit("manhattan", self.manhattan, Unit::kCount, 0, 1,
           "1: rotations and lines are tied to the Manhattan axes");
