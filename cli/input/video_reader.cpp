@@ -16,7 +16,10 @@ extern "C" {
 #include "sslam/core/error.hpp"
 
 namespace sslam::cli {
-namespace {
+
+// What FFmpeg hands out, freed when it goes out of scope. Not without a name: VideoReader::Parts is made of
+// it.
+namespace ffmpeg {
 
 template <auto kFree>
 struct Freed {
@@ -94,7 +97,9 @@ ImageTurn turn_of(const AVStream& stream) {
   return kUpright;
 }
 
-}  // namespace
+}  // namespace ffmpeg
+
+using namespace ffmpeg;
 
 struct VideoReader::Parts {
   VideoContainer container;

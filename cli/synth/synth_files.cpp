@@ -26,7 +26,7 @@ std::string numbered(const char* folder, int number, const std::string& extensio
 
 void write_camera(const SynthSettings& settings, const Pinhole<double>& pinhole) {
   const std::string text =
-      camera_yaml({{pinhole, {}, settings.width, settings.height}, kDepthFactor, settings.rate}, "");
+      camera_yaml({{pinhole, {}, settings.width, settings.height}, kDepthFactor, settings.rate, {}}, "");
   io::write_text(fs::path(settings.folder) / "camera.yaml", text);
 }
 
