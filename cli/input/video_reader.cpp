@@ -16,6 +16,7 @@ extern "C" {
 #include "sslam/core/error.hpp"
 
 namespace sslam::cli {
+
 // Members of the reader: not in an unnamed namespace.
 namespace ffmpeg {
 
