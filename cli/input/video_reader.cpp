@@ -17,8 +17,7 @@ extern "C" {
 
 namespace sslam::cli {
 
-// What FFmpeg hands out, freed when it goes out of scope. Not without a name: VideoReader::Parts is made of
-// it.
+// Members of the reader: not in an unnamed namespace.
 namespace ffmpeg {
 
 template <auto kFree>
@@ -33,11 +32,6 @@ using CodecHandle = std::unique_ptr<AVCodecContext, Freed<avcodec_free_context>>
 using PacketHandle = std::unique_ptr<AVPacket, Freed<av_packet_free>>;
 using FrameHandle = std::unique_ptr<AVFrame, Freed<av_frame_free>>;
 
-// Decoders talk of every flaw that they meet. OpenCV's writer sets FFmpeg's level of talk, but no callback.
-void silence() {
-  av_log_set_callback([](void*, int, const char*, va_list) {});
-}
-
 // A container and the one stream in it that is looked at.
 struct VideoContainer {
   FormatHandle format;
@@ -45,9 +39,18 @@ struct VideoContainer {
   const AVCodec* decoder = nullptr;
 };
 
-VideoContainer open_container(const std::filesystem::path& file) {
+}  // namespace ffmpeg
+
+namespace {
+
+// Decoders talk of every flaw that they meet. OpenCV's writer sets FFmpeg's level of talk, but no callback.
+void silence() {
+  av_log_set_callback([](void*, int, const char*, va_list) {});
+}
+
+ffmpeg::VideoContainer open_container(const std::filesystem::path& file) {
   silence();
-  VideoContainer opened;
+  ffmpeg::VideoContainer opened;
   AVFormatContext* format = nullptr;
   AVDictionary* options = nullptr;
   av_dict_set(&options, "protocol_whitelist", "file", 0);  // a playlist must not lead into the network
@@ -68,7 +71,7 @@ VideoContainer open_container(const std::filesystem::path& file) {
 }
 
 // The next packet with pictures; false at the end. VP8 hides pictures that only serve others.
-bool next_packet(const VideoContainer& container, AVPacket& packet) {
+bool next_packet(const ffmpeg::VideoContainer& container, AVPacket& packet) {
   while (av_read_frame(container.format.get(), &packet) >= 0) {
     if (packet.stream_index == container.stream->index && packet.size > 0) return true;
     av_packet_unref(&packet);
@@ -76,7 +79,7 @@ bool next_packet(const VideoContainer& container, AVPacket& packet) {
   return false;
 }
 
-bool is_shown(const VideoContainer& container, const AVPacket& packet) {
+bool is_shown(const ffmpeg::VideoContainer& container, const AVPacket& packet) {
   constexpr std::uint8_t kShownVp8 = 0x10;
   if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;
   return container.stream->codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & kShownVp8) != 0;
@@ -97,15 +100,13 @@ ImageTurn turn_of(const AVStream& stream) {
   return kUpright;
 }
 
-}  // namespace ffmpeg
-
-using namespace ffmpeg;
+}  // namespace
 
 struct VideoReader::Parts {
-  VideoContainer container;
-  CodecHandle codec;
-  PacketHandle packet{av_packet_alloc()};
-  FrameHandle frame{av_frame_alloc()};
+  ffmpeg::VideoContainer container;
+  ffmpeg::CodecHandle codec;
+  ffmpeg::PacketHandle packet{av_packet_alloc()};
+  ffmpeg::FrameHandle frame{av_frame_alloc()};
   SwsContext* scaler = nullptr;
   bool drained = false;
   VideoInfo info;
@@ -180,11 +181,11 @@ cv::Mat VideoReader::image() {
 }
 
 VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_most) {
-  const VideoContainer container = open_container(file);
+  const ffmpeg::VideoContainer container = open_container(file);
   const AVStream& stream = *container.stream;
   constexpr std::int64_t kReordered =
       32;  // packets come in order of decoding: more than any codec puts aside
-  const PacketHandle packet(av_packet_alloc());
+  const ffmpeg::PacketHandle packet(av_packet_alloc());
   VideoTimes found;
   bool timed = true;
   while (found.whole && next_packet(container, *packet)) {
