@@ -103,7 +103,7 @@ inline void open_yaml(cv::FileStorage& storage, const std::filesystem::path& pat
   if (!opened) throw Error(path.string() + ": cannot open this camera file");
   // OpenCV would end a look for a key in what has none by an assertion.
   for (int i = 0; !storage.root(i).empty(); ++i)
-    if (!storage.root(i).isMap())
+    if (!storage.root(i).isMap() && !storage.root(i).isNone())
       throw Error(path.string() +
                   ": holds a list or a value instead of keys; expected lines such as "
                   "'Camera.fx: 535.4'");
