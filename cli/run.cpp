@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -114,7 +115,8 @@ void run(RunSettings settings) {
   const std::string last_reason = last_reason_of(outcome);
   outcome = {};  // the report is made from the files, and needs the room
   std::string page;
-  if (settings.report || live) page = report_of(results.stage(), folder_name(settings.out));
+  if (settings.report || live)
+    page = report_of(results.stage(), folder_name(std::filesystem::path(settings.out)));
   if (settings.report) write_report(results.stage(), page);
   results.commit(kOptionalFiles);
   std::printf("written to       %s\n", settings.out.c_str());

@@ -37,9 +37,9 @@ Json read_object(const fs::path& file) {
 bool is_whole(const fs::path& run_folder) {
   settle_results(run_folder);
   std::error_code ignored;
-  return fs::is_regular_file(run_folder / "trajectory.txt", ignored) &&
-         fs::is_regular_file(run_folder / "metrics.json", ignored) &&
-         foreign_files(run_folder, read_object(run_folder / "metrics.json").value("files", Json())).empty();
+  if (!fs::is_regular_file(run_folder / "trajectory.txt", ignored)) return false;
+  const Json metrics = read_object(run_folder / "metrics.json");
+  return metrics.is_object() && foreign_files(run_folder, metrics.value("files", Json())).empty();
 }
 
 // The error in the log, without what `sslam` puts in front of it; the last line where there is none.

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "cli/shell/interrupt.hpp"
+#include "cli/view/connection_watch.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 
@@ -16,7 +17,7 @@ namespace sslam::cli {
 namespace {
 
 constexpr const char* kHost = "127.0.0.1";
-constexpr std::size_t kWorkers = 4;
+constexpr std::size_t kWorkers = 32;  // most of them wait for slow clients
 
 // 128 bits from the system's source of randomness.
 std::string random_token() {
@@ -71,6 +72,7 @@ ViewServer::ViewServer(int port, ViewContent content)
                                 {"Referrer-Policy", "no-referrer"},
                                 {"X-Content-Type-Options", "nosniff"}});
   server_->set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    watch_->request_read(request.remote_port);
     answer(request, response);
     return httplib::Server::HandlerResponse::Handled;
   });
@@ -79,12 +81,14 @@ ViewServer::ViewServer(int port, ViewContent content)
         refuse(response, 500, "The page could not be made.");
       });
   open_port(port);
+  watch_ = std::make_unique<ConnectionWatch>(port_);
   thread_ = std::thread([this] { server_->listen_after_bind(); });
   while (!server_->is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 ViewServer::~ViewServer() {
   server_->stop();
+  watch_->end_all();  // else it would wait for whoever is connected
   thread_.join();
 }
 

@@ -17,6 +17,7 @@ struct Response;
 
 namespace sslam::cli {
 
+class ConnectionWatch;
 class Interrupt;
 
 using SharedText = std::shared_ptr<const std::string>;
@@ -48,6 +49,7 @@ class ViewServer {
   std::string token_;
   int port_ = 0;
   std::unique_ptr<httplib::Server> server_;
+  std::unique_ptr<ConnectionWatch> watch_;
   std::thread thread_;
 };
 

@@ -84,7 +84,7 @@ TEST_CASE("files of two runs in one folder are recognised by all who read it") {
   CHECK_FALSE(fs::exists(copy.out / ".sslam-ready"));
   const fs::path first = copy.scratch.path() / "first";
   fs::copy(copy.out, first);
-  REQUIRE(copy.run("--end 50").code == 0);
+  REQUIRE(copy.run().code == 0);
   const std::string out = copy.out.string(),
                     what = ": is not the file that belongs to metrics.json beside it";
   CHECK(run_program("report " + out).text.find(what) == std::string::npos);

@@ -13,6 +13,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 
 from served import PacedRun, View
 
@@ -117,8 +118,35 @@ def check_refusals(program, scratch):
             connection = silent.enter_context(socket.create_connection(("127.0.0.1", port)))
             connection.sendall(b"GET /" if i % 2 else b"")
         assert view.ask()[0] == 200
+    # Nor do more than there are workers, who go on to say a letter now and then; and none of them holds up the end.
+    with slow_clients(port, 48):
+        assert view.ask()[0] == 200
         assert view.end()[0] == 0
     assert other.end()[0] == 0
+
+
+@contextlib.contextmanager
+def slow_clients(port, count):
+    """Each sends a byte of a request that has no end every tenth of a second, as long as somebody listens."""
+    over = threading.Event()
+
+    def drip(connections):
+        while not over.wait(0.1):
+            for connection in connections:
+                with contextlib.suppress(OSError):
+                    connection.send(b"a")
+
+    with contextlib.ExitStack() as stack:
+        connections = [stack.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(count)]
+        for connection in connections:
+            connection.sendall(b"GET /")
+        thread = threading.Thread(target=drip, args=(connections,))
+        thread.start()
+        try:
+            yield
+        finally:
+            over.set()
+            thread.join()
 
 
 def check_input(program, scratch):
