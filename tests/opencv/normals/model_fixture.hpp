@@ -20,7 +20,7 @@ namespace sslam::test {
 using Changes = std::vector<std::pair<std::string, std::string>>;
 
 inline std::filesystem::path fixtures() {
-  return std::filesystem::absolute(__FILE__).parent_path() / "fixtures";
+  return std::filesystem::absolute(__FILE__).parent_path().parent_path() / "fixtures";
 }
 
 // `manifest` with pieces of its text replaced, beside a copy of nothing: the model stays where it is.

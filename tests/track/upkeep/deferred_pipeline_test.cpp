@@ -35,7 +35,7 @@ TEST_CASE("A walk is tracked as well when mapping comes late") {
     Simulation simulation(walk(150));
     LatePipeline pipeline;
     pipeline.upkeep.channel.max_waiting = 1;
-    pipeline.keyframes.max_baseline = 0.03;  // more keyframes than this mapping can take
+    pipeline.keyframes.options.max_baseline = 0.03;  // more keyframes than this mapping can take
     const auto results = track_all(pipeline, simulation, pause);
     INFO("pause " << pause << ", keyframes not made " << pipeline.upkeep.refused());
     REQUIRE(count(results, State::kLost) == 0);

@@ -49,21 +49,27 @@ template <class Change>
 
 // How another reading of either file's rotations would make them agree; empty: none does.
 [[nodiscard]] inline std::string better_reading(const PairedPoses& paired) {
-  constexpr double kBad = 0.2, kBetter = 0.25;  // radians; share of it that is left
-  const double as_read = rotation_rmse(paired);
-  if (as_read < kBad) return {};
+  constexpr double kBad = 0.1, kBetter = 0.25;  // radians; share of it that is left
   const auto reorder = [](SE3<double>& pose) { pose.rotation = with_w_first(pose.rotation); };
   const auto invert = [](SE3<double>& pose) { pose = pose.inverse(); };
-  const auto suits = [&](const PairedPoses& other) { return rotation_rmse(other) < kBetter * as_read; };
+  const double as_read = rotation_rmse(paired);
+  if (as_read < kBad) return {};
+  double least = kBetter * as_read;
+  std::string best;
+  const auto consider = [&](const PairedPoses& other, std::string meaning) {
+    const double rmse = rotation_rmse(other);
+    if (rmse >= least) return;
+    least = rmse;
+    best = std::move(meaning);
+  };
   const std::string order = "have w first: the rotations would agree; expected qx qy qz qw";
-  if (suits({paired.truth, changed(paired.estimate, reorder)}))
-    return "the estimate's quaternions seem to " + order;
-  if (suits({changed(paired.truth, reorder), paired.estimate}))
-    return "the ground truth's quaternions seem to " + order;
-  if (suits({paired.truth, changed(paired.estimate, invert)}))
-    return "the estimate's poses seem to be world to camera: the rotations would agree; expected camera to "
-           "world";
-  return {};
+  consider({paired.truth, changed(paired.estimate, reorder)}, "the estimate's quaternions seem to " + order);
+  consider({changed(paired.truth, reorder), paired.estimate},
+           "the ground truth's quaternions seem to " + order);
+  consider({paired.truth, changed(paired.estimate, invert)},
+           "the estimate's poses seem to be world to camera: the rotations would agree; expected camera to "
+           "world");
+  return best;
 }
 
 // The unit that a scale betrays; empty: none.
