@@ -3,6 +3,8 @@
 // exit code.
 #include "sslam/system/program.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
@@ -90,8 +92,10 @@ void demand_printed() {
   errno = 0;
   std::cout.flush();
   const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
-  if (!printed)
-    throw Error(std::string("standard output: cannot write: ") + std::strerror(errno != 0 ? errno : EIO));
+  if (printed) return;
+  // A write that failed earlier has left no reason: one more has it.
+  if (errno == 0 && write(STDOUT_FILENO, "\n", 1) >= 0) errno = EIO;
+  throw Error(std::string("standard output: cannot write: ") + std::strerror(errno));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <vector>
 
 namespace sslam::cli {
@@ -28,6 +27,19 @@ std::string in_one_line(const std::string& text) {
 void print_message(const char* kind, const std::string& text) {
   if (message_form == MessageForm::kJson) return print_json({{"event", kind}, {"text", text}});
   std::fprintf(message_stream(), "sslam: %s: %s\n", kind, in_one_line(text).c_str());
+}
+
+// What is the same in warnings of one kind: frames and rows differ by their numbers.
+std::string without_numbers(const std::string& text) {
+  std::string kind;
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit)
+      kind += c;
+    else if (kind.empty() || kind.back() != '#')
+      kind += '#';
+  }
+  return kind;
 }
 
 }  // namespace
@@ -65,15 +77,13 @@ void print_json(const nlohmann::ordered_json& object) {
 
 void print_warnings(std::span<const std::string> warnings, std::size_t at_most) {
   struct Kind {
-    std::string_view text;
+    std::string text;
     const std::string* first;
     std::size_t count;
   };
   std::vector<Kind> kinds;
   for (const std::string& warning : warnings) {
-    const std::size_t colon = warning.rfind(": ");
-    const std::string_view text =
-        colon == std::string::npos ? warning : std::string_view(warning).substr(colon);
+    const std::string text = without_numbers(warning);
     const auto known =
         std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.text == text; });
     if (known == kinds.end())

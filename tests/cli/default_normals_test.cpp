@@ -19,7 +19,7 @@ TEST_CASE("The network is the default where it is installed and of use") {
 TEST_CASE("Without the network lines alone are the default, with one line that says so") {
   const cli::DefaultNormals chosen = cli::default_normals(std::nullopt, true);
   CHECK(chosen.source == "none");
-  CHECK(chosen.note.find("not installed: lines alone") != std::string::npos);
+  CHECK(chosen.note.find("not installed: the axes come from lines alone") != std::string::npos);
   CHECK(chosen.note.find('\n') == std::string::npos);
   CHECK(cli::default_normals(std::nullopt, false).note.empty());
 }
