@@ -135,7 +135,7 @@ void run_normals(const NormalsSettings& settings) {
   OnnxNormals model = open_model(settings.model);
   const NormalManifest manifest = model.manifest();
   ImageCamera camera(settings.camera, dataset, assumed_focal_per_width(manifest.input));
-  FrameReader reader(dataset, camera.claimed_size());
+  FrameReader reader(dataset);
   prepare_folder(settings.out, dataset, manifest);
   NormalWriter writer(std::move(model), std::move(camera), settings.out);
   std::vector<std::string> failures;

@@ -23,11 +23,6 @@ class ImageCamera {
         known_(wish_.focal > 0 || wish_.fov > 0 ? std::nullopt : find_camera(wish_.file, dataset)),
         focal_per_width_(focal_per_width) {}
 
-  // Of the calibration; empty: it is not known.
-  [[nodiscard]] cv::Size claimed_size() const {
-    return known_ ? cv::Size(known_->camera.width, known_->camera.height) : cv::Size();
-  }
-
   // The first image's size is that of all. Throws Error when the calibration cannot be that image's.
   [[nodiscard]] Camera<double> of(const cv::Mat& image) {
     if (!std::exchange(told_, true)) settle(image.cols, image.rows);

@@ -25,9 +25,9 @@ sslam_cli_test(NAME "normals of one image" ARGS normals ${fixtures}/room.jpg --c
 sslam_cli_test(NAME "normals assumes a camera and says so" ARGS normals ${fixtures}/room.jpg ${tiny} --out ${folder}/assumed
                OUT "images +1 of 1" ERR "^sslam: note: the camera is not known: assuming a focal length of 256 pixels for 320x240[^\n]*\n$")
 sslam_cli_test(NAME "normals goes on over a bad image" ARGS normals ${folder}/flawed ${tiny} --out ${folder}/flawed_out
-               OUT "images +2 of 3" ERR "sslam: warning: [^\n]*flawed/b.jpg: truncated image\n$")
+               OUT "images +2 of 3" ERR "sslam: warning: [^\n]*flawed/b.jpg: cannot decode this image\n$")
 sslam_cli_test(NAME "normals takes a glob" ARGS normals "${folder}/flawed/?.jpg" ${tiny} --out ${folder}/glob_out
-               OUT "images +2 of 3" ERR "flawed/b.jpg: truncated image")
+               OUT "images +2 of 3" ERR "flawed/b.jpg: cannot decode this image")
 
 # sslam_normals_refuses(WHAT REGEX argument...): exit code 1 and one line.
 function(sslam_normals_refuses what regex)

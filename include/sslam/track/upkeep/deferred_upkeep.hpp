@@ -127,7 +127,8 @@ class DeferredUpkeep {
     std::swap(rest, own_);
     for (const Own& own : rest) {
       if (map.index(own.id) < known_) continue;
-      Keyframe<S>& keyframe = snapshot_.map.keyframes[map.index(own.id)];
+      // Its features move on; its pose also stays in the map before, which the change goes by.
+      Keyframe<S> keyframe = std::move(snapshot_.map.keyframes[map.index(own.id)]);
       keyframe.cam_from_world = change_.pose(own.reference, keyframe.cam_from_world);
       std::vector<LandmarkId> points = keyframe.point_landmarks, lines = keyframe.line_landmarks;
       change_.forget_gone_matches(points, lines);
