@@ -170,9 +170,9 @@ TEST_CASE("run takes its options from a file and its parameters from the command
 
 TEST_CASE("run sets parameters of the front end") {
   const Copy copy;
-  const Outcome outcome = copy.run("--end 40 --set points.points=200 --set lines.max_lines=20");
+  const Outcome outcome = copy.run("--end 10 --set points.points=200 --set lines.max_lines=20");
   INFO(outcome.text);
-  REQUIRE(outcome.code == 0);
+  REQUIRE(fs::exists(copy.out / "frames.csv"));  // whether so few features start a map or not
   REQUIRE(copy.metrics()["settings"]["parameters"]["points.points"] == 200);
   std::istringstream table(text_of(copy.out / "frames.csv"));
   std::string header, row;
