@@ -30,11 +30,11 @@ sslam_suite_refuses("no sequence" "names no sequence. expected at least one ..se
 sslam_suite_refuses("one bracket" "line 1: sequence in the suite: expected a table with two brackets" "[sequence]\npath = \"images\"\n")
 sslam_suite_refuses("a number for a path" "line 2: path in ..sequence..: expected text in quotes" "[[sequence]]\npath = 3\n")
 sslam_suite_refuses("a missing camera" "line 2: ..sequence..: [^\n]*none.yaml: no such camera file" "${sequence}camera = \"none.yaml\"\n")
-sslam_suite_refuses("a flawed ground truth" "line 2: ..sequence..: [^\n]*flawed.txt: line 1: expected 8 numbers"
+sslam_suite_refuses("a flawed ground truth" "line 2: ..sequence..: [^\n]*flawed.txt: line 1: has 3 columns"
                     "${sequence}truth = \"flawed.txt\"\n")
 sslam_suite_refuses("a start after the end" "line 2: ..sequence..: [^\n]*no frame from 7 up to 1" "${sequence}start = 7\n")
 sslam_suite_refuses("two of one name" "line 4: name in ..sequence..: 'images' is there already, in line 2" "${sequence}${sequence}")
-sslam_suite_refuses("an unknown preset" "line 4: ..method..: --preset papers: not known. use one of structure, paper"
+sslam_suite_refuses("an unknown preset" "line 4: ..method..: --preset papers: no such preset. use one of structure, paper"
                     "${sequence}[[method]]\npreset = \"papers\"\n")
 sslam_suite_refuses("an unknown parameter" "line 4: ..method..: --set keyframes.min_gab: no such parameter"
                     "${sequence}[[method]]\nset = {keyframes.min_gab = 3}\n")
@@ -50,7 +50,7 @@ sslam_suite_refuses("a reference to another sequence" "line 5: 'image' is not a 
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {image = \"flawed.txt\"}\n")
 sslam_suite_refuses("a missing trajectory" "line 5: images in trajectories of ..reference..: [^\n]*none.txt: no such file"
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {images = \"none.txt\"}\n")
-sslam_suite_refuses("a flawed trajectory" "line 3: ..reference..: [^\n]*flawed.txt: line 1: expected 8 numbers"
+sslam_suite_refuses("a flawed trajectory" "line 3: ..reference..: [^\n]*flawed.txt: line 1: has 3 columns"
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {images = \"flawed.txt\"}\n")
 sslam_suite_refuses("a missing earlier batch" "line 1: against: [^\n]*none: no such folder" "against = \"none\"\n${sequence}")
 
