@@ -47,8 +47,9 @@ class Atlas {
 
   // `world` is one of worlds().
   [[nodiscard]] World<S> take(World<S>& world) {
-    World<S> taken = std::move(world);
-    worlds_.erase(worlds_.begin() + (&world - worlds_.data()));
+    const auto at = worlds_.begin() + (&world - worlds_.data());
+    World<S> taken = std::move(*at);
+    worlds_.erase(at);
     return taken;
   }
 
