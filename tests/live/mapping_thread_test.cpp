@@ -46,7 +46,7 @@ TEST_CASE("A camera that is faster than mapping gets fewer keyframes and no wait
   LivePipeline pipeline;
   pipeline.upkeep.channel.max_waiting = 1;
   pipeline.keyframes.options.min_gap = 0;
-  pipeline.keyframes.max_baseline = 0;  // each frame wants to be one
+  pipeline.keyframes.options.max_baseline = 0;  // each frame wants to be one
   for (std::size_t k = 0; k < simulation.size(); ++k) {
     Frame<double> frame = simulation.frame(k);
     (void)pipeline.track(frame);
