@@ -15,9 +15,9 @@ void add_normals_command(CLI::App& app);    // normals.cpp
 void add_report_command(CLI::App& app);     // report.cpp
 void add_view_command(CLI::App& app);       // view.cpp
 void add_export_command(CLI::App& app);     // export.cpp
-void add_batch_command(CLI::App& app);      // batch/batch.cpp
-void add_calibrate_command(CLI::App& app);  // calibrate/calibrate.cpp
-void add_fetch_command(CLI::App& app);      // fetch/fetch.cpp
+void add_batch_command(CLI::App& app);      // batch.cpp
+void add_calibrate_command(CLI::App& app);  // calibrate.cpp
+void add_fetch_command(CLI::App& app);      // fetch.cpp
 void add_demo_command(CLI::App& app);       // demo.cpp
 
 }  // namespace sslam::cli

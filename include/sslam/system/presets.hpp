@@ -30,7 +30,7 @@ struct Preset {
 // name.
 void add_preset(Preset preset);
 
-// Throws Error, which names those that there are, when there is none of that name.
+// Throws Error, which lists the known names, when the name is not known.
 [[nodiscard]] const Preset& find_preset(std::string_view name);
 
 }  // namespace sslam

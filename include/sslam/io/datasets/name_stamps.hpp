@@ -48,7 +48,7 @@ struct SplitName {
   return name;
 }
 
-// Whole numbers. A date such as 20230815093012 is none of a clock's.
+// Whole numbers. A date such as 20230815093012 is not the time of a clock.
 [[nodiscard]] inline std::optional<NameStamps> stamps_of_numbers(std::vector<double> stamps) {
   const StampUnit unit = stamp_unit_of(stamps, StampsOf::kOther);
   for (double& stamp : stamps) stamp /= unit.per_second;
