@@ -3,12 +3,7 @@
 #include <vector>
 
 #include "alloc/heap_watch.hpp"
-#include "sslam/track/localise/fallback.hpp"
-#include "sslam/track/localise/refinement.hpp"
-#include "sslam/track/localise/rotation.hpp"
-#include "sslam/track/localise/translation.hpp"
-#include "sslam/track/mapping/keyframe_choice.hpp"
-#include "sslam/track/pipeline.hpp"
+#include "sslam/track/presets.hpp"
 #include "support/catch.hpp"
 #include "track/simulation.hpp"
 
@@ -40,8 +35,8 @@ struct Choice : SharedFeatureKeyframes<double> {
   }
 };
 
-using Tracker = Pipeline<double, ManhattanRotation<double>, NoInitialisation, DecoupledTranslation<double>,
-                         FeatureFallback<double>, LocalMapRefinement<double>, Choice, NoMapping>;
+using Tracker = presets::With<presets::Structure<double>, slots::Initialisation<NoInitialisation>,
+                              slots::Keyframes<Choice>, slots::Mapping<NoMapping>, slots::Loops<NoLoopClosing<double>>>;
 
 [[nodiscard]] std::vector<SE3<double>> brisk_walk() {
   const std::vector<SE3<double>> slow = walk(4 * kFrames);
