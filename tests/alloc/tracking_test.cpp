@@ -35,8 +35,9 @@ struct Choice : SharedFeatureKeyframes<double> {
   }
 };
 
-using Tracker = presets::With<presets::Structure<double>, slots::Initialisation<NoInitialisation>,
-                              slots::Keyframes<Choice>, slots::Mapping<NoMapping>, slots::Loops<NoLoopClosing<double>>>;
+using Tracker =
+    presets::With<presets::Structure<double>, slots::Initialisation<NoInitialisation>,
+                  slots::Keyframes<Choice>, slots::Mapping<NoMapping>, slots::Loops<NoLoopClosing<double>>>;
 
 [[nodiscard]] std::vector<SE3<double>> brisk_walk() {
   const std::vector<SE3<double>> slow = walk(4 * kFrames);
