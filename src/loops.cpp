@@ -5,7 +5,6 @@
 namespace sslam {
 
 extern template class Map<double>;
-extern template class BundleSolver<double>;
 extern template class MapAdjustment<double, BundleSolver<double>>;
 extern template class FeatureFallback<double>;
 extern template class LocalMapRefinement<double>;

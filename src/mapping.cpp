@@ -7,7 +7,6 @@
 namespace sslam {
 
 extern template class Map<double>;
-extern template class BundleSolver<double>;
 extern template class MapAdjustment<double, BundleSolver<double>>;
 
 template class NewLandmarks<double>;

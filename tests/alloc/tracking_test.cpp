@@ -29,9 +29,9 @@ struct Choice : SharedFeatureKeyframes<double> {
   bool wasteful = false;  // asks for memory at each frame
 
   [[nodiscard]] bool choose(const Map<double>& map, KeyframeId reference, const TrackedFrame<double>& frame,
-                            int inliers, int frames_since, double median_depth) const {
+                            int inliers, double seconds_since, double median_depth) const {
     if (wasteful) escape(std::vector<int>(1).data());
-    return SharedFeatureKeyframes::choose(map, reference, frame, inliers, frames_since, median_depth);
+    return SharedFeatureKeyframes::choose(map, reference, frame, inliers, seconds_since, median_depth);
   }
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The heavy kernels are instantiated once, in src/kernels_*.cpp, instead of once for every
-// pipeline.
+// The heavy kernels are instantiated once, in src/, instead of once for every pipeline.
 #pragma once
 
 #include "sslam/manhattan/rotation.hpp"
 #include "sslam/manhattan/search.hpp"
+#include "sslam/solver/bundle/bundle_solver.hpp"
+#include "sslam/solver/bundle/pose_graph_solver.hpp"
 #include "sslam/solver/pose/pose_refinement.hpp"
 #include "sslam/solver/triangulation/triangulate_line.hpp"
 #include "sslam/solver/triangulation/triangulate_point.hpp"
@@ -39,7 +40,9 @@ extern template PoseSummary<double, 6> refine_pose(
     const Pinhole<double>&, std::span<const PointObservation<double>>,
     std::span<const LineObservation<double>>, SE3<double>&, const PoseRefinementOptions<double>&,
     std::span<std::uint8_t>, std::span<std::uint8_t>,
-    const RotationPrior<double>*) noexcept;  // kernels_mapping.cpp
+    const RotationPrior<double>*) noexcept;     // kernels_mapping.cpp
+extern template class BundleSolver<double>;     // adjustment.cpp
+extern template class PoseGraphSolver<double>;  // loops.cpp
 extern template PoseSummary<double, 3> refine_translation(
     const Pinhole<double>&, std::span<const PointObservation<double>>,
     std::span<const LineObservation<double>>, SE3<double>&, const PoseRefinementOptions<double>&,

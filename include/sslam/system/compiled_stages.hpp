@@ -8,7 +8,7 @@
 
 namespace sslam {
 
-extern template struct Map<double>;  // src/map.cpp
+extern template class Map<double>;  // src/map.cpp
 
 extern template class ManhattanRotation<double>;        // src/rotation.cpp
 extern template class DecoupledInitialisation<double>;  // src/initialisation.cpp
@@ -22,10 +22,8 @@ extern template class ManhattanPlanes<double>;          // src/mapping.cpp
 extern template class KeyframeMapping<double>;          // src/mapping.cpp
 extern template class KeyframeMapping<double, MapAdjustment<double, BundleSolver<double>>,
                                       ManhattanPlanes<double>>;     // src/mapping.cpp
-extern template class BundleSolver<double>;                         // src/adjustment.cpp
 extern template class MapAdjustment<double, BundleSolver<double>>;  // src/adjustment.cpp
-extern template class PoseGraphSolver<double>;                      // src/loops.cpp
-extern template struct EssentialGraph<double>;                      // src/loops.cpp
+extern template class EssentialGraph<double>;                       // src/loops.cpp
 extern template class LoopDetection<double>;                        // src/loops.cpp
 extern template class LoopClosing<double>;                          // src/loops.cpp
 

@@ -15,10 +15,9 @@ using Points = std::vector<PointFeature<double>>;
 Points points_with(std::initializer_list<int> bits) {
   Points points;
   for (const int count : bits) {
-    PointFeature<double> point;
+    PointFeature<double>& point = points.emplace_back();
     for (int i = 0; i < count; ++i)
       point.descriptor.words[static_cast<std::size_t>(i / 64)] |= 1ULL << i % 64;
-    points.push_back(point);
   }
   return points;
 }
