@@ -128,6 +128,7 @@ def run(a):
     cases = [(name, start, stride, normals) for name in folders for normals in a.normals for stride in a.strides
              for start in a.starts]
     extra = ["--preset", a.preset] + [word for s in a.set for word in ("--set", s)]
+    extra += ["--no-final-pass"] if a.no_final_pass else []
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
         rows = list(pool.map(lambda case: run_one(a.program, folders[case[0]], case, extra), cases))
     with open(a.csv, "w", newline="") as file:
@@ -157,6 +158,7 @@ def main():
     one.add_argument("--normals", type=names, default=["none"], help="none, onnx, depth, files (rendered rooms)")
     one.add_argument("--preset", default="structure")
     one.add_argument("--set", action="append", default=[])
+    one.add_argument("--no-final-pass", action="store_true")
     one.add_argument("--jobs", type=int, default=1)
     two = commands.add_parser("compare", help="old -> new, over the runs that both have")
     two.add_argument("old")
