@@ -84,6 +84,8 @@ void run(RunSettings settings) {
   wanted.normals = choose_normals(settings.normals);
   wanted.seed = settings.seed;
   wanted.live = settings.live;
+  wanted.longest_side = settings.longest_side;
+  wanted.final_pass = settings.final_pass;
   wanted.keep_pictures = settings.report || settings.view || !settings.video.empty();
   io::prepare_output_folder(settings.out);
   const FolderLock lock = FolderLock::demand(settings.out);
@@ -91,11 +93,11 @@ void run(RunSettings settings) {
   System system(std::move(wanted));
   const std::size_t frames = dataset.frames.size(), known_keyframes = known.keyframes.size();
   if (!known.empty()) system.resume(std::move(known));
-  RunRecorder recorder(camera.camera, frames, settings.report ? (frames + kMaxViews - 1) / kMaxViews : 0);
+  RunRecorder recorder(system.camera(), frames, settings.report ? (frames + kMaxViews - 1) / kMaxViews : 0);
   system.add_observer(recorder);
   std::optional<OverlayVideo> video;
-  if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, camera.camera));
-  const RunContext context{settings, dataset, camera.source, camera.camera};
+  if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, system.camera()));
+  const RunContext context{settings, dataset, camera.source, camera.camera, system.camera()};
   std::optional<LiveView> live;
   if (settings.view) system.add_observer(live.emplace(context).observer());
   Progress progress(frames, settings.verbosity, "run");
@@ -142,6 +144,11 @@ void add_run_command(CLI::App& app) {
   add_camera_options(*command, s->camera, s->focal, s->fov);
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   command
+      ->add_option("--longest-side", s->longest_side,
+                   "Images with a longer side are shrunk to it, pixels; 0: none is")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command
       ->add_option(
           "--mask", s->mask,
           "Image whose pixels of 0 are left out of all frames (a robot's own parts, burnt-in text), or "
@@ -179,6 +186,10 @@ void add_run_command(CLI::App& app) {
       "--live", s->live,
       "As with a camera: frames come at the pace of their stamps, mapping and loop closing have "
       "a thread of their own, tracking never waits for them; no two runs are alike");
+  command->add_flag_callback(
+      "--no-final-pass", [s] { s->final_pass = false; },
+      "Leave out what follows the last frame: the whole map is adjusted, and every frame tracked again in "
+      "it");
   command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

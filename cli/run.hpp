@@ -31,6 +31,8 @@ struct RunSettings {
   std::vector<std::string> set;  // stage.parameter=value
   std::uint64_t seed = 1;
   bool live = false;       // mapping in a thread of its own, frames when a camera would deliver them
+  int longest_side = 960;  // of the images as they are worked on, pixels
+  bool final_pass = true;  // all frames are tracked again in the finished map
   bool report = true;      // write report.html
   std::string video;       // overlay video to write; empty: none
   bool view = false;       // show the run while it goes on, and its report until Ctrl-C

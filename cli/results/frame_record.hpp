@@ -26,7 +26,8 @@ struct RunOutcome {
   std::vector<Parameter> parameters;
   std::vector<std::string> warnings;
   std::vector<std::string> views;  // frames as encode_frame_view gives them
-  double wall_seconds = 0;         // of the whole loop
+  double wall_seconds = 0;         // of the whole run
+  double final_pass_seconds = 0;   // of it, what followed the last frame
   int keyframes_not_made = 0;      // live: frames that mapping was too far behind for
   bool interrupted = false;
 };

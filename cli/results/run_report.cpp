@@ -58,6 +58,7 @@ Json times_json(const RunOutcome& outcome) {
       outcome.wall_seconds > 0 ? static_cast<double>(outcome.frames.size()) / outcome.wall_seconds : 0;
   return {{"frames_per_second", rate},
           {"wall_seconds", outcome.wall_seconds},
+          {"final_pass_seconds", outcome.final_pass_seconds},
           {"frame_ms", quantiles(frame)},
           {"extraction_ms", quantiles(extraction)},
           {"tracking_ms", quantiles(tracking)}};
@@ -183,6 +184,7 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
           {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
           {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
           {"image_size", {context.camera.width, context.camera.height}},
+          {"working_size", {context.working_camera.width, context.working_camera.height}},
           {"seconds_per_stamp", context.dataset.seconds_per_stamp},
           {"normals", s.normals},
           {"preset", s.preset},
@@ -191,7 +193,8 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
           {"end", s.slice.end},
           {"stride", s.slice.stride},
           {"seed", s.seed},
-          {"live", s.live}};
+          {"live", s.live},
+          {"final_pass", s.final_pass}};
 }
 
 void write_run(const RunContext& context, const RunOutcome& outcome, const fs::path& out) {
@@ -226,6 +229,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
                   {"maps_apart", outcome.apart.maps},
                   {"frames_apart", outcome.apart.frames},
                   {"states", states_json(outcome)},
+                  {"structure", count_frames(outcome, &TrackResult<double>::structure)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"normal_faults", normal_faults_json(outcome)},
                   {"times", times_json(outcome)}};

@@ -18,7 +18,8 @@ struct RunContext {
   const RunSettings& settings;
   const io::Dataset& dataset;
   std::string camera_source;
-  Camera<double> camera;
+  Camera<double> camera;          // of the images
+  Camera<double> working_camera;  // of the images as they are worked on
 };
 
 // What was asked for, as metrics.json has it; the parameters come from the outcome.

@@ -17,7 +17,10 @@ void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, 
     if (!input.warning.empty()) system.warn(input.warning);
     if (input.usable()) (void)system.track(input);
   }
+  WallTimer last;
+  last.begin();
   if (system.finish() && !outcome.frames.empty()) outcome.frames.back().loop_closed = true;
+  outcome.final_pass_seconds = last.total() * 1e-3;
   outcome.wall_seconds = wall.total() * 1e-3;
   outcome.interrupted = Interrupt::asked();
   outcome.map = system.map();

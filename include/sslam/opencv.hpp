@@ -18,6 +18,7 @@
 #include "sslam/opencv/camera/text_node.hpp"
 #include "sslam/opencv/camera/text_tree.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
+#include "sslam/opencv/camera/working_size.hpp"
 #include "sslam/opencv/image_frontend.hpp"
 #include "sslam/opencv/image_input.hpp"
 #include "sslam/opencv/image_mask.hpp"

@@ -153,15 +153,15 @@ TEST_CASE("run takes each source of normals and each preset") {
 TEST_CASE("run takes its options from a file and its parameters from the command line") {
   const Copy copy;
   write(copy.scratch.path() / "run.toml",
-        "stride = 2\npreset = \"features\"\n[set]\nkeyframes.max_turn = 9\nkeyframes.min_gap = 5\n");
+        "stride = 2\npreset = \"features\"\n[set]\nkeyframes.max_turn = 9\nkeyframes.min_gap = 0.5\n");
   const Outcome outcome =
-      copy.run("--config " + (copy.scratch.path() / "run.toml").string() + " --set keyframes.min_gap=3");
+      copy.run("--config " + (copy.scratch.path() / "run.toml").string() + " --set keyframes.min_gap=0.25");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   const auto settings = copy.metrics()["settings"];
   REQUIRE(settings["stride"] == 2);
   REQUIRE(settings["preset"] == "features");
-  REQUIRE(settings["parameters"]["keyframes.min_gap"] == 3);
+  REQUIRE(settings["parameters"]["keyframes.min_gap"] == 0.25);
   REQUIRE(settings["parameters"]["keyframes.max_turn"].get<double>() == Approx(9));
   write(copy.scratch.path() / "typo.toml", "strid = 2\n");
   require_refused(copy.run("--config " + (copy.scratch.path() / "typo.toml").string()),
@@ -337,7 +337,7 @@ TEST_CASE("run begins a new map in another room and says that the two stand apar
     list << 3 + k / 30.0 << " rgb/other_" << name << '\n';
   }
   list.close();
-  const Outcome outcome = copy.run("--set atlas.leave_after=10");
+  const Outcome outcome = copy.run("--set atlas.leave_after=0.33");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("maps apart       1, with ") != std::string::npos);
@@ -373,8 +373,8 @@ TEST_CASE("run refuses what it cannot use with one line") {
   require_refused(copy.run("--set keyframes.min_gab=2"),
                   "--set keyframes.min_gab: no such parameter here; did you mean keyframes.min_gap?");
   require_refused(copy.run("--preset features --set rotation.frames=2"), "no such parameter");
-  require_refused(copy.run("--set keyframes.min_gap=2.5"), "--set keyframes.min_gap=2.5: not a whole number");
-  require_refused(copy.run("--set keyframes.min_gap=1e10"), "out of range: 1 to 1000, in count");
+  require_refused(copy.run("--set atlas.young_map=2.5"), "--set atlas.young_map=2.5: not a whole number");
+  require_refused(copy.run("--set atlas.young_map=1e10"), "out of range: 0 to 1e+06, in count");
   require_refused(copy.run("--set keyframes.max_turn=-8"), "out of range: 0 to 180, in degrees");
   require_refused(copy.run("--set keyframes.min_shared=1.4"),
                   "--set keyframes.min_shared=1.4: out of range: 0 to 1, in share");

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <limits>
+#include <set>
 #include <thread>
 
 #include "sslam/io/evaluation/evaluation.hpp"
@@ -130,6 +131,46 @@ TEST_CASE("Images and stamps that cannot be used are told and change nothing") {
   CHECK_FALSE(system.finish());
   CHECK(track(system, 6).input == InputStatus::kFinished);
   CHECK(system.frames() == 6);
+}
+
+TEST_CASE("Images that are larger than they need be are shrunk, and observers see them so") {
+  Settings settings = settings_of(room());
+  settings.longest_side = room().camera.width * 3 / 4;
+  settings.keep_pictures = true;
+  System system(settings);
+  CHECK(system.camera().width == settings.longest_side);
+  struct Sizes : Observer {
+    void frame_tracked(const FrameEvent& event) override {
+      widths.insert(event.input.picture.cols);
+      widths.insert(event.frame.frame.width);
+    }
+    std::set<int> widths;
+  } sizes;
+  system.add_observer(sizes);
+  int posed = 0;
+  for (int frame = 0; frame < kFrames; ++frame) posed += track(system, frame).has_pose();
+  CHECK(sizes.widths == std::set<int>{settings.longest_side});
+  CHECK(posed > kFrames / 2);
+  cv::Mat small;
+  cv::resize(room().images[0], small, {system.camera().width, system.camera().height});
+  CHECK(system.track(small, 100).input == InputStatus::kWrongSize);
+}
+
+TEST_CASE("finish() tracks the frames again, unless the settings leave that out") {
+  Settings settings = settings_of(room());
+  System twice(settings);
+  settings.final_pass = false;
+  System once(settings);
+  for (int frame = 0; frame < kFrames; ++frame) {
+    track(twice, frame);
+    track(once, frame);
+  }
+  CHECK(same_poses(once.trajectory(), twice.trajectory()));
+  twice.finish();
+  const io::Trajectory before = once.trajectory();
+  once.finish();
+  CHECK(same_poses(before, once.trajectory()));
+  CHECK_FALSE(same_poses(once.trajectory(), twice.trajectory()));
 }
 
 TEST_CASE("Settings that contradict themselves are refused by the name of the field") {

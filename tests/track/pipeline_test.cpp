@@ -19,7 +19,7 @@ TEST_CASE("The pipeline starts early and tracks a walk through a room") {
   const auto results = track_all(pipeline, simulation);
   REQUIRE(count(results, State::kInitialising) < 30);
   REQUIRE(count(results, State::kLost) == 0);
-  REQUIRE(count(results, State::kManhattan) > 100);
+  REQUIRE(count_structure(results) > 100);
   // The frames before the first map have their poses too.
   REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
   REQUIRE(position_error(pipeline, simulation) < 0.02);
@@ -120,7 +120,7 @@ TEST_CASE("A later run finds its place in the map of an earlier one") {
   }
   REQUIRE(results[0].state == State::kFallback);
   REQUIRE(results[0].reason == Reason::kRelocalised);
-  REQUIRE(count(results, State::kManhattan) > 60);
+  REQUIRE(count_structure(results) > 60);
   // In the coordinates, and the scale, of the first run.
   const auto& entries = first.trajectory().entries();
   for (const auto& entry : entries)

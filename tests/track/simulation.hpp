@@ -137,4 +137,10 @@ template <class P>
       std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.state == state; }));
 }
 
+// Poses that structure had a part in, and that agree with it.
+[[nodiscard]] inline int count_structure(const std::vector<TrackResult<double>>& results) {
+  return static_cast<int>(std::count_if(results.begin(), results.end(),
+                                        [](const auto& r) { return r.has_pose() && r.structure; }));
+}
+
 }  // namespace sslam::testing

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "sslam/io/maps/map_file.hpp"
+#include "sslam/opencv/camera/working_size.hpp"
 #include "sslam/system/parameters.hpp"
 #include "sslam/system/system.hpp"
 
@@ -22,6 +24,7 @@ void BasicSystem<Frontend>::check(const Settings& settings) const {
       std::isfinite(k.fx) && std::isfinite(k.fy) && std::isfinite(k.cx) && std::isfinite(k.cy);
   if (!finite || !(k.fx > 0) || !(k.fy > 0))
     throw SettingsError("camera", "fx and fy must be positive and finite, cx and cy finite");
+  if (settings.longest_side < 0) throw SettingsError("longest_side", "a number of pixels, or 0 for any size");
   if (settings.normals.from_depth() && !(settings.depth_factor > 0 && std::isfinite(settings.depth_factor)))
     throw SettingsError("depth_factor", "normals from depth need the value of one metre, above 0");
 }
@@ -38,10 +41,12 @@ BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(sett
     throw SettingsError("live", "the preset " + preset_.name + " has no mapping in a thread of its own");
   engine_ = settings_.live ? preset_.make_live() : preset_.make();
   engine_->seed(settings_.seed);
+  engine_->keep_frames(settings_.final_pass);
   engine_->create_points(preset_.new_points);
   reads_depth_ = settings_.normals.from_depth();
   frontend_ = std::make_unique<Frontend>();
-  frontend_->camera = settings_.camera;
+  camera_ = shrunk_camera(settings_.camera, settings_.longest_side);
+  frontend_->camera = camera_;
   frontend_->normals = std::move(settings_.normals);
   set_parameters();
 }
@@ -59,7 +64,15 @@ template <class Frontend>
 BasicSystem<Frontend>::~BasicSystem() = default;
 
 template <class Frontend>
-void BasicSystem<Frontend>::extract(const ImageInput& input, Extraction& out) {
+void BasicSystem<Frontend>::extract(const ImageInput& given, Extraction& out) {
+  const cv::Size full(settings_.camera.width, settings_.camera.height);
+  const bool shrinks = full != cv::Size(camera_.width, camera_.height);
+  if (shrinks && !given.image.empty() && given.image.size() != full) {
+    out.report = {};
+    out.report.image = ImageStatus::kWrongSize;
+    return;
+  }
+  const ImageInput input = shrinks && !given.image.empty() ? shrunk_input(given, camera_) : given;
   out.report = frontend_->process(input, out.frame);
   out.picture = out.normal_picture = cv::Mat();
   if (!out.usable()) return;
@@ -126,8 +139,19 @@ FrameReport BasicSystem<Frontend>::track(Extraction& extraction) {
   report.tracking_ms = engine_->tracking_ms();
   report.stage_ms = engine_->stage_ms();
   note_latest(report);
+  warn_of_image_fixed(report);
   tell(report, extraction);
   return report;
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::warn_of_image_fixed(const FrameReport& report) {
+  constexpr int kMany = 10;  // features
+  if (report.image_fixed < kMany || std::exchange(told_of_image_fixed_, true)) return;
+  warn("frame " + std::to_string(report.index) + ": " + std::to_string(report.image_fixed) +
+       " features do not move in the image while the rest does (burnt-in text, a part of the robot?) and are "
+       "left "
+       "out from here on; a mask leaves them out from the first frame");
 }
 
 template <class Frontend>

@@ -28,6 +28,7 @@ class Engine {
   virtual bool finish() = 0;                                    // true if that closed a loop
   virtual void resume(Map<double> map) = 0;
   virtual void localise_only(bool on) = 0;
+  virtual void keep_frames(bool on) = 0;  // so that finish() can track them again
 
   [[nodiscard]] virtual const Map<double>& map() const = 0;
   [[nodiscard]] virtual const TrajectoryLog<double>& trajectory() const = 0;

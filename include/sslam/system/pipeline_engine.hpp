@@ -18,6 +18,7 @@ class PipelineEngine final : public Engine {
   bool finish() override { return pipeline_.finish(); }
   void resume(Map<double> map) override { pipeline_.resume(std::move(map)); }
   void localise_only(bool on) override { pipeline_.localise_only = on; }
+  void keep_frames(bool on) override { pipeline_.keep_frames = on; }
 
   [[nodiscard]] const Map<double>& map() const override { return pipeline_.map(); }
   [[nodiscard]] const TrajectoryLog<double>& trajectory() const override { return pipeline_.trajectory(); }

@@ -85,6 +85,8 @@ class BasicSystem {
   void warn(const std::string& line);  // tells all observers
 
   [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
+  // Of the images as they are worked on: that of the settings, or a smaller one (Settings::longest_side).
+  [[nodiscard]] const Camera<double>& camera() const noexcept { return camera_; }
   // Whether depth images are looked at.
   [[nodiscard]] bool reads_depth() const noexcept { return reads_depth_; }
   [[nodiscard]] const Preset& preset() const noexcept { return preset_; }
@@ -99,8 +101,10 @@ class BasicSystem {
   void set_parameters();
   void tell(const FrameReport& report, const Extraction& extraction);
   void note_latest(const FrameReport& report);
+  void warn_of_image_fixed(const FrameReport& report);
 
   Settings settings_;
+  Camera<double> camera_;
   Preset preset_;
   std::unique_ptr<Frontend> frontend_;
   std::unique_ptr<Engine> engine_;
@@ -112,6 +116,7 @@ class BasicSystem {
   int last_world_ = 0;
   bool reads_depth_ = false;
   bool finished_ = false;
+  bool told_of_image_fixed_ = false;
   mutable std::mutex latest_mutex_;
   LatestPose latest_;
 };

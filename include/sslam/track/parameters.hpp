@@ -19,8 +19,11 @@ inline constexpr std::array kPipelineOrders{
 // own stage has those that it describes.
 template <class Pipeline, class Visit>
 void visit_parameters(Pipeline& p, Visit&& visit) {
+  visit_stage("image_fixed.", p.image_fixed, visit);
   visit_stage("rotation.", p.rotation, visit);
   if constexpr (requires { p.rotation.sightings; }) visit_stage("rotation.", p.rotation.sightings, visit);
+  visit_stage("evidence.", p.evidence, visit);
+  visit_stage("stance.", p.stance, visit);
   visit_stage("initialisation.", p.initialisation, visit);
   visit_stage("translation.", p.translation, visit);
   visit_stage("fallback.", p.fallback, visit);
@@ -36,6 +39,7 @@ void visit_parameters(Pipeline& p, Visit&& visit) {
   visit_stage("loops.", p.loops, visit);
   visit_stage("atlas.", p.trial, visit);
   visit_stage("atlas.", p.atlas, visit);
+  visit_stage("final_pass.", p.final_pass, visit);
 }
 
 template <class Pipeline>

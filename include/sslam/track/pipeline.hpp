@@ -3,8 +3,11 @@
 // `pipeline.rotation.options.max_sigma = ...`; presets.hpp shows how one is replaced.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "sslam/track/matching/image_fixed_features.hpp"
 #include "sslam/track/world_keeping.hpp"
 
 namespace sslam {
@@ -16,21 +19,27 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
  public:
   using ScalarType = S;
   using Stages = StageTypes;
-  using Worlds::atlas, Worlds::backfill, Worlds::trial;
-  using Worlds::fallback, Worlds::refinement, Worlds::rotation, Worlds::translation;
+  using Worlds::atlas, Worlds::backfill, Worlds::final_pass, Worlds::trial;
+  using Worlds::evidence, Worlds::motion, Worlds::relocalisation, Worlds::timer;
+  using Worlds::fallback, Worlds::refinement, Worlds::rotation, Worlds::stance;
   using Worlds::initialisation, Worlds::keyframes, Worlds::loops, Worlds::mapping, Worlds::upkeep;
-  using Worlds::motion, Worlds::relocalisation, Worlds::timer;
+  using Worlds::translation;
 
+  ImageFixedFeatures<S> image_fixed;
   bool localise_only = false;  // no keyframe is made, and no map begun, given up, left or joined
+  bool keep_frames = false;    // frames are kept for a final pass, when finish() is called
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
   TrackResult<S> track(Frame<S>& frame) {
     timer.begin();
     TrackResult<S> result;
     result.loop_closed = follow_map(upkeep.renew(world_.map));
+    leave_out_fixed(frame, result);
     frames_.begin(frame);
     result.index = frames_.current().frame.index;
     result.stamp = frames_.current().frame.stamp;
+    step_ = last_stamp_ ? std::clamp(result.stamp - *last_stamp_, 0.0, kLongestStep) : 0;
+    last_stamp_ = result.stamp;
     if (!world_.map.empty())
       follow(result);
     else if (!revisit(result) && !localise_only)
@@ -39,6 +48,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
       backfill.keep(frames_.current(), result.has_pose());
     else
       backfill.clear();
+    if (keep_frames && !localise_only) final_pass.keep(frames_.current().frame);
     result.world = world_.number;
     return result;
   }
@@ -46,7 +56,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   // Goes on in a map that was made earlier: the next frames are lost until one is recognised.
   void resume(Map<S> map) {
     Worlds::start_over(std::move(map));
-    world_.cursor.move_to(0);  // never removed
+    world_.cursor.move_to(0, world_.map.keyframes.front().frame.stamp);  // never removed
     trial.begin_in_given_map();
   }
 
@@ -57,6 +67,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     const bool loop_closed = follow_map(upkeep.finish(world_.map));
     World<S>* largest = atlas.largest();
     if (largest != nullptr && Atlas<S>::smaller(world_, *largest)) Worlds::change_places(*largest);
+    final_pass.run(world_.map, fallback, refinement, world_.log);
     return loop_closed;
   }
 
@@ -67,8 +78,21 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   [[nodiscard]] const TrackedFrame<S>& last_frame() const noexcept { return frames_.current(); }
 
  private:
+  static constexpr double kLongestStep = 0.25;  // seconds that a frame stands for: a pause is no evidence
+
   using Worlds::finder_, Worlds::frames_, Worlds::world_;
   using Worlds::follow_map, Worlds::reference;
+
+  // A map that was begun before many features were found to be fixed to the image holds them, and is given
+  // up.
+  void leave_out_fixed(Frame<S>& frame, TrackResult<S>& result) {
+    const std::size_t seen = frame.points.size() + frame.lines.size();
+    const std::size_t left_out = image_fixed.leave_out(frame, world_.map.empty());
+    result.image_fixed = static_cast<int>(left_out);
+    const bool many = 5 * left_out > seen;
+    if (!many || std::exchange(many_fixed_, true) || world_.map.empty() || localise_only) return;
+    Worlds::give_up_world(false);
+  }
 
   void initialise(TrackResult<S>& result) {
     TrackedFrame<S>& frame = frames_.current();
@@ -84,7 +108,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     timer.end(Stage::kMapping);
     for (const Keyframe<S>& kf : world_.map.keyframes)
       world_.log.add(world_.map, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
-    world_.cursor.move_to(world_.map.keyframes.back().id);
+    world_.cursor.move_to(world_.map.keyframes.back().id, frame.frame.stamp);
     backfill.run(world_.map, fallback, refinement, keyframes, mapping, world_.log);
     frame.read_back(reference());
     result.state = answer.trusted() ? State::kManhattan : State::kFallback;
@@ -110,7 +134,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   void settle(const PoseEstimate<S>& estimate, bool tracked, TrackResult<S>& result) {
     TrackedFrame<S>& frame = frames_.current();
     Map<S>& map = world_.map;
-    trial.weigh(frame);
+    trial.weigh(frame, step_);
     if (!localise_only && trial.refutes(map)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
@@ -174,7 +198,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     }
     Worlds::change_places(*known);
     if (trial.young(known->map)) (void)atlas.take(*known);
-    world_.cursor.move_to(world_.cursor.reference());
+    world_.cursor.move_to(world_.cursor.reference(), frame.frame.stamp);
     settle(estimate, false, result);
     return true;
   }
@@ -182,14 +206,19 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   void lose(TrackResult<S>& result, Reason reason) {
     result.state = State::kLost;
     result.reason = reason;
+    result.structure = false;
     frames_.lose();
     rotation.lose();
-    trial.add_lost(frames_.current().frame);
+    trial.add_lost(frames_.current().frame, step_);
     if (localise_only) return;
     const bool left = trial.leaves() && atlas.options.most > 0;
     const bool refuted = trial.refutes(world_.map);
     if (refuted || left) Worlds::give_up_world(!refuted);
   }
+
+  std::optional<double> last_stamp_;
+  bool many_fixed_ = false;  // a fifth of a frame's features have been left out, once at least
+  double step_ = 0;          // seconds since the frame before this one
 };
 
 }  // namespace sslam

@@ -7,8 +7,10 @@
 
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/localise/frame_history.hpp"
+#include "sslam/track/localise/manhattan_stance.hpp"
 #include "sslam/track/localise/motion_model.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
+#include "sslam/track/localise/rotation_evidence.hpp"
 #include "sslam/track/worlds/world.hpp"
 
 namespace sslam {
@@ -19,6 +21,8 @@ template <Scalar S, StageSet<S> Stages>
 class PoseTracking {
  public:
   typename Stages::Rotation rotation;
+  RotationEvidence<S> evidence;
+  ManhattanStance<S> stance;
   typename Stages::Translation translation;
   typename Stages::Fallback fallback;
   typename Stages::Refinement refinement;
@@ -39,24 +43,26 @@ class PoseTracking {
     const SE3<S> predicted = motion.predict(result.stamp);
     const RotationAnswer<S> answer = rotate(predicted.rotation, world.map, frame, result);
     std::optional<RotationPrior<S>> prior;
-    if (answer.seen) {
-      const RotationObservation<S>& seen = answer.seen->rotation;
-      prior = RotationPrior<S>{seen.cam_from_world, seen.covariance.inverse()};
+    if (frame.manhattan) prior = evidence.prior(*frame.manhattan);
+    PoseEstimate<S> estimate;
+    result.state = State::kManhattan;
+    if (answer.trusted() && evidence.rigid(*frame.manhattan))
+      estimate = track_decoupled(predicted, *prior, world.map, frame);
+    if (!estimate.ok()) {
+      result.state = State::kFallback;
+      frame.cam_from_world = predicted;
+      estimate = track_features(prior ? &*prior : nullptr, world, frames);
     }
-    result.reason = Reason::kNoManhattanFrame;
-    if (answer.trusted()) {
-      const PoseEstimate<S> estimate = track_decoupled(predicted, *prior, world.map, frame);
-      if (estimate.ok()) {
-        result.state = State::kManhattan;
-        result.reason = Reason::kFine;
-        return estimate;
-      }
-      prior.reset();  // it has just been found wanting
-      result.reason = Reason::kManhattanRejected;
+    const SO3<S>& solved = frame.cam_from_world.rotation;
+    result.structure = estimate.ok() && prior && evidence.holds(*prior, solved);
+    result.reason = !prior             ? Reason::kNoManhattanFrame
+                    : result.structure ? Reason::kFine
+                                       : Reason::kManhattanRejected;
+    if (estimate.ok() && prior) {
+      evidence.learn(result.index, frame.manhattan_frame, answer.seen->rotation, solved);
+      stance.refine(world.map, frame);
     }
-    result.state = State::kFallback;
-    frame.cam_from_world = predicted;
-    return track_features(prior ? &*prior : nullptr, world, frames);
+    return estimate;
   }
 
   // The frame's place in a world, if it is found there; the world's cursor then refers to it. Where the
@@ -84,6 +90,7 @@ class PoseTracking {
         stage.rotate(frame.frame, predicted, {map.world_from_manhattan, !map.empty()});
     if (answer.discovered) map.world_from_manhattan.push_back(*answer.discovered);
     frame.take(answer, map.world_from_manhattan);
+    if (frame.manhattan) frame.manhattan = evidence.weigh(*frame.manhattan);
     result.axes_seen = answer.axes_seen;
     timer.end(Stage::kRotation);
     return answer;

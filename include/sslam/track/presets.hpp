@@ -15,6 +15,7 @@
 #include "sslam/track/pipeline.hpp"
 #include "sslam/track/slots.hpp"
 #include "sslam/track/upkeep/immediate_upkeep.hpp"
+#include "sslam/track/worlds/final_pass.hpp"
 
 namespace sslam::presets {
 
@@ -38,6 +39,7 @@ struct StructureStages {
   using Mapping = BundleMapping<S>;
   using Loops = LoopClosing<S>;
   using Upkeep = ImmediateUpkeep<S>;
+  using Final = FinalPass<S>;
   using Timer = Clock;
 };
 
@@ -48,7 +50,8 @@ using Structure = Pipeline<S, StructureStages<S, Timer>>;
 
 // The same as published (Li et al. 2020): landmarks stay as they were triangulated.
 template <Scalar S, StageTimer Timer = NoTimer>
-using Paper = With<Structure<S, Timer>, slots::Mapping<KeyframeMapping<S>>, slots::Loops<NoLoopClosing<S>>>;
+using Paper = With<Structure<S, Timer>, slots::Mapping<KeyframeMapping<S>>, slots::Loops<NoLoopClosing<S>>,
+                   slots::Final<NoFinalPass<S>>>;
 
 // No Manhattan world: points and lines alone.
 template <Scalar S, StageTimer Timer = NoTimer>
@@ -57,7 +60,7 @@ using Features =
 
 // Frame to frame, without refinement against the local map.
 template <Scalar S, StageTimer Timer = NoTimer>
-using Odometry =
-    With<Structure<S, Timer>, slots::Refinement<NoRefinement<S>>, slots::Loops<NoLoopClosing<S>>>;
+using Odometry = With<Structure<S, Timer>, slots::Refinement<NoRefinement<S>>, slots::Loops<NoLoopClosing<S>>,
+                      slots::Final<NoFinalPass<S>>>;
 
 }  // namespace sslam::presets

@@ -83,6 +83,14 @@ struct Upkeep {
 };
 
 template <class T>
+struct Final {
+  template <class Base>
+  struct Over : Base {
+    using Final = T;
+  };
+};
+
+template <class T>
 struct Timer {
   template <class Base>
   struct Over : Base {

@@ -14,7 +14,8 @@ namespace sslam {
 template <Scalar S, StageSet<S> Stages>
 class WorldKeeping : public PoseTracking<S, Stages> {
  public:
-  using PoseTracking<S, Stages>::rotation, PoseTracking<S, Stages>::motion;
+  using PoseTracking<S, Stages>::evidence, PoseTracking<S, Stages>::motion;
+  using PoseTracking<S, Stages>::rotation, PoseTracking<S, Stages>::stance;
   typename Stages::Initialisation initialisation;
   typename Stages::Keyframes keyframes;
   typename Stages::Mapping mapping;
@@ -22,6 +23,7 @@ class WorldKeeping : public PoseTracking<S, Stages> {
   Backfill<S> backfill;
   MapTrial<S> trial;
   Atlas<S> atlas;
+  typename Stages::Final final_pass;
   typename Stages::Upkeep
       upkeep;  // after the stages that it may still be at work with when the pipeline ends
 
@@ -101,6 +103,8 @@ class WorldKeeping : public PoseTracking<S, Stages> {
   // The world is another one: what the stages remember was of that before it.
   void enter_world() {
     rotation.forget();
+    evidence.begin_again();
+    stance.begin(world_.map.empty());
     initialisation.reset();
     loops.forget();
     motion.stop();

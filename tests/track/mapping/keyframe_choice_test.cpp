@@ -31,7 +31,7 @@ TEST_CASE("A frame that still sees what the reference keyframe sees is no keyfra
   const Map<double> map = map_of_one();
   CHECK_FALSE(keyframes.choose(map, 0, frame_with(100), 35, 5, 1.0));
   CHECK(keyframes.choose(map, 0, frame_with(100), 25, 5, 1.0));
-  CHECK_FALSE(keyframes.choose(map, 0, frame_with(100), 25, keyframes.options.min_gap - 1, 1.0));
+  CHECK_FALSE(keyframes.choose(map, 0, frame_with(100), 25, keyframes.options.min_gap / 2, 1.0));
 }
 
 TEST_CASE("Where much that is new comes into view a keyframe is due though all that is known is seen") {

@@ -19,8 +19,9 @@ Correspondences<double> matches(int count) {
 }
 
 template <int D>
-PoseEstimate<double> judged(int count, bool turned) {
-  const RotationPrior<double> prior{{}, Mat3<double>::Identity()};
+PoseEstimate<double> judged(int count, bool turned, double sigma_degrees = 0.5) {
+  const double sigma = radians(sigma_degrees);
+  const RotationPrior<double> prior{{}, Mat3<double>::Identity() / (sigma * sigma)};
   PoseAcceptance<double> acceptance = LocalMapRefinement<double>().accepts(turned ? &prior : nullptr);
   if (D == 3) acceptance = DecoupledTranslation<double>().options.acceptance;
   Correspondences<double> m = matches(count);
@@ -34,5 +35,6 @@ TEST_CASE("Fewer matches are enough where the Manhattan frame gives the rotation
   CHECK(judged<6>(9, false).reason == Reason::kTooFewMatches);
   CHECK(judged<3>(5, true).ok());
   CHECK(judged<6>(5, true).ok());
+  CHECK(judged<6>(5, true, 1).reason == Reason::kTooFewMatches);  // known to a degree: six are left to solve
   CHECK(judged<3>(4, true).reason == Reason::kTooFewMatches);
 }

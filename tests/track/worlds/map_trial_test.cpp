@@ -22,8 +22,10 @@ Map<double> map_of(std::size_t keyframes) {
   return map;
 }
 
+constexpr double kStep = 1.0 / 30;  // seconds between frames
+
 void weigh(MapTrial<double>& trial, int frames, double degrees) {
-  for (int i = 0; i < frames; ++i) trial.weigh(tracked(degrees));
+  for (int i = 0; i < frames; ++i) trial.weigh(tracked(degrees), kStep);
 }
 
 }  // namespace
@@ -87,21 +89,34 @@ TEST_CASE("A given map is never given up") {
   weigh(trial, 100, 8);
   Frame<double> frame;
   frame.points.resize(100);
-  for (int i = 0; i < 100; ++i) trial.add_lost(frame);
+  for (int i = 0; i < 100; ++i) trial.add_lost(frame, kStep);
   CHECK_FALSE(trial.refutes(map_of(2)));
 }
 
 TEST_CASE("A young map is given up when images that show enough do not fit it") {
   Frame<double> frame;
   MapTrial<double> trial;
-  for (int i = 0; i < 50; ++i) trial.add_lost(frame);  // a covered lens
+  for (int i = 0; i < 50; ++i) trial.add_lost(frame, kStep);  // a covered lens
   CHECK_FALSE(trial.refutes(map_of(2)));
   frame.points.resize(100);
-  for (int i = 0; i < 15; ++i) trial.add_lost(frame);
+  for (int i = 0; i < 15; ++i) trial.add_lost(frame, kStep);
   CHECK(trial.refutes(map_of(2)));
   CHECK_FALSE(trial.refutes(map_of(10)));
+  CHECK_FALSE(trial.leaves());
   CHECK(trial.lost());
   trial.end_loss();
   CHECK_FALSE(trial.refutes(map_of(2)));
   CHECK_FALSE(trial.lost());
+}
+
+TEST_CASE("Patience is in seconds, whatever the rate of the camera") {
+  Frame<double> frame;
+  frame.points.resize(100);
+  for (const int rate : {5, 10, 30, 60}) {
+    MapTrial<double> trial;
+    for (int i = 1; i < rate; ++i) trial.add_lost(frame, 1.0 / rate);
+    CHECK_FALSE(trial.leaves());
+    trial.add_lost(frame, 1.0 / rate);
+    CHECK(trial.leaves());
+  }
 }

@@ -58,10 +58,11 @@ concept RefinementStage = requires(T stage, Map<S>& map, const RotationPrior<S>*
   { stage.refine(map, prior, frame) } -> std::same_as<PoseEstimate<S>>;
 };
 
-// Decides whether a tracked frame becomes a keyframe.
+// Decides whether a tracked frame becomes a keyframe, by its inliers, the seconds since the last one, and the
+// median depth of what it sees.
 template <class T, class S>
 concept KeyframeStage = requires(const T stage, const Map<S>& map, const TrackedFrame<S>& frame) {
-  { stage.choose(map, KeyframeId{}, frame, int{}, int{}, S{}) } -> std::same_as<bool>;
+  { stage.choose(map, KeyframeId{}, frame, int{}, double{}, S{}) } -> std::same_as<bool>;
 };
 
 // Takes a keyframe into the map.
@@ -104,6 +105,12 @@ concept UpkeepStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame, Map
   stage.forget();
 };
 
+// Goes over the whole run once more when its last frame has been tracked.
+template <class T, class S>
+concept FinalStage = requires(T stage, const Frame<S>& frame) {
+  stage.keep(frame);
+};
+
 // One type for each slot of the pipeline.
 template <class T, class S>
 concept StageSet =
@@ -112,6 +119,6 @@ concept StageSet =
     RefinementStage<typename T::Refinement, S> && KeyframeStage<typename T::Keyframes, S> &&
     MappingStage<typename T::Mapping, S> && LoopStage<typename T::Loops, S> &&
     UpkeepStage<typename T::Upkeep, S, typename T::Mapping, typename T::Loops> &&
-    StageTimer<typename T::Timer>;
+    FinalStage<typename T::Final, S> && StageTimer<typename T::Timer>;
 
 }  // namespace sslam

@@ -76,6 +76,8 @@ struct TrackResult {
   int point_inliers = 0;
   int line_inliers = 0;
   int axes_seen = 0;         // Manhattan axes with support: 3, 2, 1 or 0
+  bool structure = false;    // the Manhattan rotation took part in the pose, and the pose agrees with it
+  int image_fixed = 0;       // features that were left out, since they never move in the image
   bool keyframe = false;     // this frame joined the map
   bool loop_closed = false;  // by this frame's place, known from before; live: since the last frame
   bool maps_joined = false;  // by this frame's place, known from a map that had been left

@@ -3,6 +3,8 @@
 // the Manhattan rotation takes part as one more observation, weighed by its own covariance.
 #pragma once
 
+#include <Eigen/Eigenvalues>
+
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/local_map.hpp"
 #include "sslam/track/localise/translation.hpp"
@@ -13,7 +15,10 @@ template <Scalar S>
 struct RefinementOptions {
   MatchOptions<S> match{.point_radius = 6, .line_radius = 10, .points = {}, .lines = {}};
   PoseAcceptance<S> acceptance{.min_inlier_share = S(0.3)};
-  int min_inliers_turned = 5;  // instead of the acceptance's, where the Manhattan frame gives the rotation
+  // With the rotation given by the Manhattan frame to this standard deviation, three degrees of freedom are
+  // left, and fewer inliers than the acceptance's are enough.
+  int min_inliers_turned = 5;
+  S turned_sigma = radians(S(0.7));
   PoseRefinementOptions<S> solver;
   std::size_t max_keyframes = 20;
 
@@ -24,6 +29,8 @@ struct RefinementOptions {
     visit_within("solver.", self.solver, visit);
     visit("min_inliers_turned", self.min_inliers_turned, Unit::kCount, 3, 1e+06,
           "min_inliers where the Manhattan frame gives the rotation");
+    visit("turned_sigma", self.turned_sigma, Unit::kDegrees, 0, 45,
+          "largest standard deviation of a Manhattan rotation that gives the frame's");
     visit("max_keyframes", self.max_keyframes, Unit::kCount, 1, 1e+06, "of the local map");
   }
 };
@@ -45,11 +52,16 @@ class LocalMapRefinement {
   // What a pose must show, with a rotation from the Manhattan frame or without one.
   [[nodiscard]] PoseAcceptance<S> accepts(const RotationPrior<S>* prior) const noexcept {
     PoseAcceptance<S> wanted = options.acceptance;
-    if (prior != nullptr) wanted.min_inliers = options.min_inliers_turned;
+    if (prior != nullptr && gives_rotation(*prior)) wanted.min_inliers = options.min_inliers_turned;
     return wanted;
   }
 
  private:
+  [[nodiscard]] bool gives_rotation(const RotationPrior<S>& prior) const noexcept {
+    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(prior.information, Eigen::EigenvaluesOnly);
+    return eigen.eigenvalues().x() * options.turned_sigma * options.turned_sigma >= S(1);
+  }
+
   // `visible` becomes those that are matched.
   static void drop_matched(std::vector<LandmarkId>& candidates, const std::vector<LandmarkId>& matched,
                            std::vector<LandmarkId>& visible) {

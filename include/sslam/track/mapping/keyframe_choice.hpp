@@ -16,7 +16,7 @@ struct KeyframeOptions {
   S min_shared = S(0.5);        // share of the reference keyframe's landmarks that the frame still sees
   S max_baseline = S(0.08);     // distance to the reference keyframe over the median scene depth
   S max_turn = radians(S(12));  // rotation against the reference keyframe
-  int min_gap = 2;              // frames between keyframes
+  double min_gap = 0.05;        // seconds between keyframes: every second frame of a video, each one at 10 Hz
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -25,7 +25,7 @@ struct KeyframeOptions {
     visit("max_baseline", self.max_baseline, Unit::kNumber, 0, 10,
           "distance to the reference keyframe over the median scene depth");
     visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180, "rotation against the reference keyframe");
-    visit("min_gap", self.min_gap, Unit::kCount, 1, 1000, "frames between keyframes");
+    visit("min_gap", self.min_gap, Unit::kSeconds, 0, 3600, "between keyframes");
   }
 };
 static_assert(Described<KeyframeOptions<double>>);
@@ -36,8 +36,8 @@ class SharedFeatureKeyframes {
   KeyframeOptions<S> options;
 
   [[nodiscard]] bool choose(const Map<S>& map, KeyframeId reference, const TrackedFrame<S>& frame,
-                            int inliers, int frames_since, S median_depth) const {
-    if (frames_since < options.min_gap) return false;
+                            int inliers, double seconds_since, S median_depth) const {
+    if (seconds_since < options.min_gap) return false;
     const Keyframe<S>& keyframe = map.keyframes[map.index(reference)];
     const auto landmarks =
         static_cast<S>(count_held(keyframe.point_landmarks) + count_held(keyframe.line_landmarks));
@@ -57,7 +57,7 @@ static_assert(KeyframeStage<SharedFeatureKeyframes<double>, double>);
 // Keeps the map as initialisation left it.
 template <Scalar S>
 struct NoKeyframes {
-  [[nodiscard]] bool choose(const Map<S>&, KeyframeId, const TrackedFrame<S>&, int, int, S) const {
+  [[nodiscard]] bool choose(const Map<S>&, KeyframeId, const TrackedFrame<S>&, int, double, S) const {
     return false;
   }
 };

@@ -2,6 +2,8 @@
 // Where a walk along the frames stands in the map: its reference keyframe, and when the next one is due.
 #pragma once
 
+#include <cmath>
+
 #include "sslam/track/contract/pose_estimate.hpp"
 #include "sslam/track/matching/correspondences.hpp"
 
@@ -12,9 +14,10 @@ class KeyframeCursor {
  public:
   [[nodiscard]] KeyframeId reference() const noexcept { return reference_; }
 
-  void move_to(KeyframeId keyframe) noexcept {
+  // The reference is a keyframe that was made, or may be taken for made, at `stamp`.
+  void move_to(KeyframeId keyframe, double stamp) noexcept {
     reference_ = keyframe;
-    frames_since_ = 0;
+    last_ = stamp;
   }
 
   // The reference is another, as after a relocalisation; how long ago the last keyframe was stays.
@@ -25,13 +28,13 @@ class KeyframeCursor {
   template <class Keyframes, class Insert>
   bool advance(const Map<S>& map, const TrackedFrame<S>& frame, const PoseEstimate<S>& estimate,
                const Keyframes& keyframes, Insert insert) {
-    ++frames_since_;
     const S depth = scene_depth(map, frame);
     const int inliers = estimate.point_inliers + estimate.line_inliers;
-    if (!keyframes.choose(map, reference_, frame, inliers, frames_since_, depth)) return false;
+    if (!keyframes.choose(map, reference_, frame, inliers, std::abs(frame.frame.stamp - last_), depth))
+      return false;
     const KeyframeId id = insert(depth);
     if (id == kNone) return false;
-    move_to(id);
+    move_to(id, frame.frame.stamp);
     return true;
   }
 
@@ -43,7 +46,7 @@ class KeyframeCursor {
 
  private:
   KeyframeId reference_ = kNone;
-  int frames_since_ = 0;
+  double last_ = 0;  // stamp of the last keyframe
   Correspondences<S> seen_;
 };
 

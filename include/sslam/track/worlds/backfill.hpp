@@ -65,7 +65,7 @@ class Backfill {
     };
     const auto sweep_from = [&](KeyframeId from, std::ptrdiff_t begin, std::ptrdiff_t end,
                                 std::ptrdiff_t step) {
-      cursor_.move_to(from);
+      cursor_.move_to(from, map.keyframes[map.index(from)].frame.stamp);
       previous_.read_back(map.keyframes[map.index(from)]);
       return sweep(
           map, fallback, refinement, begin, end, step,

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
@@ -15,8 +16,8 @@ namespace sslam {
 template <Scalar S>
 struct MapTrialOptions {
   int young_map = 5;           // keyframes: a map lost while it has fewer is given up and started anew
-  int give_up_after = 15;      // frames in a row that speak against it until that happens
-  int leave_after = 30;        // the same for an older map, until it is left for a new one
+  double give_up_after = 0.5;  // seconds of frames in a row that speak against it until that happens
+  double leave_after = 1;      // the same for an older map, until it is left for a new one
   int telling_features = 50;   // points plus lines that make a lost frame speak against the map
   S max_turn = radians(S(5));  // between a pose and what the Manhattan frame says of its rotation, and
   S max_sigmas = 4;            // the same in standard deviations: beyond both they contradict each other
@@ -25,10 +26,10 @@ struct MapTrialOptions {
   static void parameters(Self& self, Visit&& visit) {
     visit("young_map", self.young_map, Unit::kCount, 0, 1000000,
           "keyframes: a map that is lost with fewer is given up and begun anew");
-    visit("give_up_after", self.give_up_after, Unit::kCount, 1, 10000,
-          "frames in a row that speak against a young map, until it is given up");
-    visit("leave_after", self.leave_after, Unit::kCount, 1, 1000000,
-          "frames in a row that show enough and have no pose, until a new map is begun");
+    visit("give_up_after", self.give_up_after, Unit::kSeconds, 0, 3600,
+          "of frames in a row that speak against a young map, until it is given up");
+    visit("leave_after", self.leave_after, Unit::kSeconds, 0, 86400,
+          "of frames in a row that show enough and have no pose, until a new map is begun");
     visit("telling_features", self.telling_features, Unit::kCount, 0, 1000000,
           "points plus lines that make a lost frame speak against the map");
     visit("max_turn", self.max_turn, Unit::kDegrees, 0, 180,
@@ -47,28 +48,30 @@ class MapTrial {
   [[nodiscard]] bool young(const Map<S>& map) const noexcept {
     return static_cast<int>(map.keyframes.size()) < options.young_map;
   }
-  [[nodiscard]] bool lost() const noexcept { return frames_ > 0; }
+  [[nodiscard]] bool lost() const noexcept { return lost_; }
 
   // The place in a map that was not made here is yet to be found; however young, that map is not given up.
-  void begin_in_given_map() noexcept {
-    frames_ = 1;
-    given_ = true;
+  void begin_in_given_map() noexcept { lost_ = given_ = true; }
+  // One more frame is lost, so many seconds after the one before it. A covered lens says nothing about the
+  // map; an image that shows enough and does not fit does.
+  void add_lost(const Frame<S>& frame, double seconds) noexcept {
+    lost_ = true;
+    if (static_cast<int>(frame.points.size() + frame.lines.size()) >= options.telling_features)
+      unfit_ += seconds;
   }
-  // One more frame is lost. A covered lens says nothing about the map; an image that shows enough and does
-  // not fit does.
-  void add_lost(const Frame<S>& frame) noexcept {
-    ++frames_;
-    if (static_cast<int>(frame.points.size() + frame.lines.size()) >= options.telling_features) ++unfit_;
+  void end_loss() noexcept {
+    lost_ = false;
+    unfit_ = 0;
   }
-  void end_loss() noexcept { frames_ = unfit_ = 0; }
 
-  // A frame has a pose. A first map whose depths are wrong, as two views of a flat scene can leave it, turns
-  // the camera as it moves; the Manhattan frame does not turn along.
-  void weigh(const TrackedFrame<S>& frame) {
+  // A frame has a pose, so many seconds after the frame before it. A first map whose depths are wrong, as two
+  // views of a flat scene can leave it, turns the camera as it moves; the Manhattan frame does not turn
+  // along.
+  void weigh(const TrackedFrame<S>& frame, double seconds) {
     if (!frame.manhattan) return;
     const bool against = contradicts(frame);
-    inconsistent_ = against ? inconsistent_ + 1 : 0;
-    square_ += against ? 0 : 1;
+    inconsistent_ = against ? inconsistent_ + seconds : 0;
+    square_ += against ? 0 : seconds;
   }
   [[nodiscard]] bool contradicts(const TrackedFrame<S>& frame) const {
     if (!frame.manhattan) return false;
@@ -81,39 +84,43 @@ class MapTrial {
   // A young map that a loss speaks against, or one with more frames inconsistent to the Manhattan frame, in a
   // row, than it has ever had square to it.
   [[nodiscard]] bool refutes(const Map<S>& map) const noexcept {
-    return !given_ && (lost_young(map) || inconsistent_ >= patience());
+    return !given_ && (lost_young(map) || reaches(inconsistent_, patience()));
   }
   // Whether that may still come to pass soon. Where no Manhattan frame is seen, nothing can be inconsistent
   // to it.
   [[nodiscard]] bool undecided(const Map<S>& map) const noexcept {
     const bool weighed = square_ + inconsistent_ > 0;
-    return !given_ && (young(map) || (weighed && square_ < options.give_up_after));
+    return !given_ && (young(map) || (weighed && !reaches(square_, options.give_up_after)));
   }
 
   // An older map in which the camera has been lost for long. One that was given is never left: its world is
   // where poses are wanted.
-  [[nodiscard]] bool leaves() const noexcept { return !given_ && unfit_ >= options.leave_after; }
+  [[nodiscard]] bool leaves() const noexcept { return !given_ && reaches(unfit_, options.leave_after); }
 
   // Another map begins. Where one after the other is inconsistent, the world is not as square as it looks:
   // each of them is given twice the time.
   void begin_again() noexcept {
-    if (inconsistent_ >= patience()) ++given_up_;
-    frames_ = unfit_ = inconsistent_ = square_ = 0;
+    if (reaches(inconsistent_, patience())) ++given_up_;
+    end_loss();
+    inconsistent_ = square_ = 0;
   }
 
  private:
   [[nodiscard]] bool lost_young(const Map<S>& map) const noexcept {
-    return unfit_ >= options.give_up_after && young(map);
+    return reaches(unfit_, options.give_up_after) && young(map);
   }
-  [[nodiscard]] int patience() const noexcept {
-    return std::max(options.give_up_after << std::min(given_up_, 16), square_);
+  [[nodiscard]] double patience() const noexcept {
+    return std::max(std::ldexp(options.give_up_after, std::min(given_up_, 16)), square_);
   }
+  // Stamps are exact to a millisecond at best.
+  [[nodiscard]] static bool reaches(double seconds, double limit) noexcept { return seconds >= limit - 1e-3; }
 
-  int frames_ = 0;        // in a row
-  int unfit_ = 0;         // of them, those that showed enough to be recognised
-  int inconsistent_ = 0;  // tracked frames in a row that contradict the Manhattan frame
-  int square_ = 0;        // tracked frames of this map that agree with it
-  int given_up_ = 0;      // maps, for being inconsistent
+  // All in seconds of frames, each with the time since the one before it.
+  double unfit_ = 0;         // lost ones in a row that showed enough to be recognised
+  double inconsistent_ = 0;  // tracked ones in a row that contradict the Manhattan frame
+  double square_ = 0;        // tracked ones of this map that agree with it
+  int given_up_ = 0;         // maps, for being inconsistent
+  bool lost_ = false;
   bool given_ = false;
 };
 

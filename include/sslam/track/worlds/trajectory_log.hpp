@@ -26,6 +26,26 @@ class TrajectoryLog {
     entries_.push_back({index, stamp, reference, cam_from_world * map.pose(reference).inverse()});
   }
 
+  // In the order of the dataset.
+  void sort() { std::stable_sort(entries_.begin(), entries_.end(), earlier); }
+
+  // Of a sorted log: the frame's entry, or null.
+  [[nodiscard]] const TrajectoryEntry<S>* find(std::int64_t index) const noexcept {
+    const auto at = position(index);
+    return at != entries_.end() && at->index == index ? &*at : nullptr;
+  }
+
+  // Of a sorted log: the frame's pose is this one.
+  void set(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference,
+           const SE3<S>& cam_from_world) {
+    const TrajectoryEntry<S> entry{index, stamp, reference, cam_from_world * map.pose(reference).inverse()};
+    const auto at = entries_.begin() + (position(index) - entries_.cbegin());
+    if (at != entries_.end() && at->index == index)
+      *at = entry;
+    else
+      entries_.insert(at, entry);
+  }
+
   // Keyframes have moved by similarities: distances from them are multiplied by scale_at(keyframe).
   template <class ScaleAt>
   void follow(ScaleAt scale_at) {
@@ -56,6 +76,14 @@ class TrajectoryLog {
   void clear() noexcept { entries_.clear(); }
 
  private:
+  static bool earlier(const TrajectoryEntry<S>& a, const TrajectoryEntry<S>& b) noexcept {
+    return a.index < b.index;
+  }
+  [[nodiscard]] auto position(std::int64_t index) const noexcept {
+    return std::lower_bound(entries_.begin(), entries_.end(), TrajectoryEntry<S>{index, 0, kNone, {}},
+                            earlier);
+  }
+
   std::vector<TrajectoryEntry<S>> entries_;
 };
 

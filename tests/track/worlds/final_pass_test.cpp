@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslam/track/worlds/final_pass.hpp"
+
+#include "support/catch.hpp"
+#include "track/simulation.hpp"
+
+using namespace sslam;
+using namespace sslam::testing;
+
+namespace {
+
+// A walk whose frames 30 to 33 are dark.
+template <class P>
+void track_walk(P& pipeline, Simulation& simulation) {
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    Frame<double> frame = k >= 30 && k < 34 ? simulation.dark_frame(k) : simulation.frame(k);
+    (void)pipeline.track(frame);
+  }
+  pipeline.finish();
+}
+
+}  // namespace
+
+TEST_CASE("Frames that are tracked again in the finished map are nearer to the truth") {
+  Simulation once(walk(90)), again(walk(90));
+  presets::Structure<double> as_tracked, twice;
+  twice.keep_frames = true;
+  track_walk(as_tracked, once);
+  track_walk(twice, again);
+  CHECK(position_error(twice, again) < 0.8 * position_error(as_tracked, once));
+  REQUIRE(twice.trajectory().entries().size() == as_tracked.trajectory().entries().size());
+}
+
+TEST_CASE("The final pass gives a pose to frames that had none, and keeps the others in order") {
+  Simulation simulation(walk(60));
+  presets::Structure<double> pipeline;
+  track_all(pipeline, simulation);
+  Map<double> map = pipeline.map();
+  TrajectoryLog<double> log;
+  for (const auto& entry : pipeline.trajectory().entries())
+    if (entry.index < 20 || entry.index > 22)
+      log.add(map, entry.index, entry.stamp, entry.reference, pipeline.trajectory().pose(map, entry));
+  const std::size_t known = log.entries().size();
+  FinalPass<double> pass;
+  for (std::size_t k = 0; k < simulation.size(); ++k) pass.keep(simulation.frame(k));
+  pass.run(map, pipeline.fallback, pipeline.refinement, log);
+  REQUIRE(log.entries().size() == known + 3);
+  for (std::size_t k = 0; k < log.entries().size(); ++k)
+    REQUIRE(log.entries()[k].index == static_cast<std::int64_t>(k) + log.entries()[0].index);
+}
+
+TEST_CASE("A frame that shows nothing gets no pose from the final pass") {
+  Simulation simulation(walk(60));
+  presets::Structure<double> pipeline;
+  pipeline.keep_frames = true;
+  track_walk(pipeline, simulation);
+  for (const auto& entry : pipeline.trajectory().entries()) CHECK((entry.index < 30 || entry.index > 33));
+}
+
+TEST_CASE("Frames beyond the limit keep the pose that they were tracked with") {
+  Simulation simulation(walk(60));
+  presets::Structure<double> pipeline;
+  pipeline.final_pass.options.max_frames = 0;
+  pipeline.keep_frames = true;
+  track_all(pipeline, simulation);
+  const auto before = pipeline.trajectory().entries();
+  const Map<double> map = pipeline.map();
+  pipeline.finish();
+  REQUIRE(pipeline.trajectory().entries().size() == before.size());
+  CHECK(pipeline.map().keyframes.back().cam_from_world.translation ==
+        map.keyframes.back().cam_from_world.translation);
+  CHECK(pipeline.trajectory().entries().back().frame_from_reference.translation ==
+        before.back().frame_from_reference.translation);
+}
+
+TEST_CASE("An empty map, or a run without a frame, has a final pass without effect") {
+  Map<double> map;
+  TrajectoryLog<double> log;
+  presets::Structure<double> pipeline;
+  FinalPass<double> pass;
+  pass.run(map, pipeline.fallback, pipeline.refinement, log);
+  pass.keep(Frame<double>());
+  pass.run(map, pipeline.fallback, pipeline.refinement, log);
+  CHECK(log.entries().empty());
+}
