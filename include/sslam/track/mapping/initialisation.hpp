@@ -27,7 +27,9 @@ struct InitialisationOptions {
   int min_points = 20;   // landmarks that a first map must have
   S max_direction_sigma = radians(S(6));  // standard deviation of the direction of the translation
   S max_rotation_sigma = radians(S(2));   // of a Manhattan rotation that is taken as known
-  S scene_depth = 1;                      // median depth of the first map: sets the monocular scale
+  S turn_share =
+      S(0.6);  // error of the turn between two frames over that of their rotations: what they share cancels
+  S scene_depth = 1;  // median depth of the first map: sets the monocular scale
   PointMatchOptions<S> match{.max_distance = 60, .max_ratio = S(0.9)};
   TranslationOptions<S> translation;  // with a Manhattan rotation
   FindRelativePoseOptions<S> pose;    // without one; its refinement serves both
@@ -43,6 +45,8 @@ struct InitialisationOptions {
           "standard deviation of the direction of the translation");
     visit("max_rotation_sigma", self.max_rotation_sigma, Unit::kDegrees, 0, 180,
           "standard deviation of a Manhattan rotation that is taken as known");
+    visit("turn_share", self.turn_share, Unit::kNumber, 0.01, 10,
+          "error of the turn between two frames over that of their Manhattan rotations");
     visit("search_radius", self.search_radius, Unit::kPixels, 1, kUnbounded,
           "around where a feature was last seen");
     visit("scene_depth", self.scene_depth, Unit::kNumber, 1e-6, 1e6,
@@ -135,7 +139,9 @@ class DecoupledInitialisation {
     if (!reference_.manhattan || !frame.manhattan) return;
     const SO3<S> R_10 = frame.manhattan->cam_from_world * reference_.manhattan->cam_from_world.inverse();
     const Mat3<S> turn = R_10.matrix();
-    prior_ = {R_10, frame.manhattan->covariance + turn * reference_.manhattan->covariance * turn.transpose()};
+    const S share = options.turn_share * options.turn_share;
+    prior_ = {R_10, share * (frame.manhattan->covariance +
+                             turn * reference_.manhattan->covariance * turn.transpose())};
   }
 
   // Translation as a null vector with the Manhattan rotation, then a refinement of both in which the rotation
