@@ -147,7 +147,7 @@ void add_run_command(CLI::App& app) {
       ->add_option("--longest-side", s->longest_side,
                    "Images with a longer side are shrunk to it, pixels; 0: none is")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 100000));
   command
       ->add_option(
           "--mask", s->mask,
