@@ -150,8 +150,7 @@ void BasicSystem<Frontend>::warn_of_image_fixed(const FrameReport& report) {
   if (report.image_fixed < kMany || std::exchange(told_of_image_fixed_, true)) return;
   warn("frame " + std::to_string(report.index) + ": " + std::to_string(report.image_fixed) +
        " features do not move in the image while the rest does (burnt-in text, a part of the robot?) and are "
-       "left "
-       "out from here on; a mask leaves them out from the first frame");
+       "left out from here on; a mask leaves them out from the first frame");
 }
 
 template <class Frontend>
