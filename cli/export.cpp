@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `sslam export RUN`: a run's trajectory or map in the form that another program reads.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/results/folder_lock.hpp"
 #include "cli/results/keyframe_images.hpp"
 #include "cli/results/map_ply.hpp"
+#include "cli/results/nerfstudio.hpp"
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/shell/messages.hpp"
@@ -54,20 +57,52 @@ bool is_lens_straight(const RunFolder& run) {
   return true;
 }
 
+// Two numbers of the run's settings, such as the size of its images; zeros where they are not there.
+std::array<int, 2> size_in(const RunFolder& run, const char* name) {
+  try {
+    return run.metrics.at("settings").at(name).get<std::array<int, 2>>();
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
+std::vector<io::Colour> point_colours(const RunFolder& run) {
+  std::vector<io::Colour> colours;
+  for (const LandmarkColour& colour : run.colours.points) colours.push_back(colour.value_or(io::kNoColour));
+  return colours;
+}
+
 std::string export_colmap(const RunFolder& run, const fs::path& out) {
   const KeyframeImages images = keyframe_images(run);
-  const io::ColmapCounts counts = io::write_colmap_model(out, run.map, images.names);
+  const std::vector<io::Colour> colours = point_colours(run);
+  const io::ColmapCounts counts = io::write_colmap_model(
+      out, run.map, {images.names, size_in(run, "working_size"), size_in(run, "image_size"), colours});
   print_warnings(images.warnings);
   if (!is_lens_straight(run))
     print_note("the model's features and camera are free of lens distortion: give COLMAP undistorted images");
-  return "cameras.txt, images.txt (" + std::to_string(counts.images) + " keyframes, " +
-         std::to_string(counts.observations) + " observations), points3D.txt (" +
+  return "cameras, images (" + std::to_string(counts.images) + " keyframes, " +
+         std::to_string(counts.observations) + " observations), points3D (" + std::to_string(counts.points) +
+         " points), each as .txt and .bin";
+}
+
+std::string export_nerfstudio(const RunFolder& run, const fs::path& stage, const fs::path& out) {
+  const NerfstudioCounts counts = write_nerfstudio(run, stage, out);
+  if (counts.strangers > 0)
+    print_warning(std::to_string(counts.strangers) +
+                  " keyframes are in no row of frames.csv (an earlier run's?): left out, since their images "
+                  "are not known");
+  if (counts.missing > 0)
+    print_note("put " + std::to_string(counts.missing) + " images into " + (out / "images").string() +
+               ", by the names in transforms.json: the run's dataset is a video, or no longer there");
+  return "transforms.json (" + std::to_string(counts.images) + " keyframes), points.ply (" +
          std::to_string(counts.points) + " points)";
 }
 
-std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {
-  if (settings.format == "colmap") return export_colmap(run, out);
-  write_map_ply(out / "map.ply", run.map);
+std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
+                       const fs::path& out) {
+  if (settings.format == "colmap") return export_colmap(run, stage);
+  if (settings.format == "nerfstudio") return export_nerfstudio(run, stage, out);
+  write_map_ply(stage / "map.ply", run.map, run.colours);
   return "map.ply";
 }
 
@@ -75,15 +110,15 @@ void run_export(const ExportSettings& settings) {
   const RunFolder run = read_run_folder(settings.run);
   const fs::path out =
       settings.out.empty() ? fs::path(settings.run) / settings.format : fs::path(settings.out);
-  const bool map = settings.format == "colmap" || settings.format == "ply";
+  const bool map = settings.format != "tum" && settings.format != "kitti";
   if (map ? run.map.empty() : run.trajectory.empty())
     refuse(settings, run, map ? "map.sslam" : "trajectory.txt");
   print_warnings(run.problems);
   io::prepare_output_folder(out);
   const FolderLock lock = FolderLock::demand(out);
   ResultSet results(out);
-  const std::string files =
-      map ? export_map(settings, run, results.stage()) : export_trajectory(settings, run, results.stage());
+  const std::string files = map ? export_map(settings, run, results.stage(), out)
+                                : export_trajectory(settings, run, results.stage());
   results.commit();
   std::printf("written to       %s: %s\n", out.c_str(), files.c_str());
 }
@@ -97,10 +132,10 @@ void add_export_command(CLI::App& app) {
   command->add_option("run", s->run, "Folder that `sslam run --out` has written to")->required();
   command
       ->add_option("--format", s->format,
-                   "tum, kitti: the trajectory; ply: points and lines; colmap: a text model of the keyframes "
-                   "with their points")
+                   "tum, kitti: the trajectory; ply: points and lines; colmap: a model of the keyframes "
+                   "with their points; nerfstudio: transforms.json and points")
       ->required()
-      ->check(CLI::IsMember({"colmap", "kitti", "ply", "tum"}));
+      ->check(CLI::IsMember({"colmap", "kitti", "nerfstudio", "ply", "tum"}));
   command->add_option("--out", s->out, "Folder for the files; default one of the format's name in the run's")
       ->type_name("DIR");
   command->callback([s] { run_export(*s); });

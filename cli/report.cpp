@@ -39,7 +39,7 @@ std::string report_html(const nlohmann::ordered_json& data, const std::vector<st
   std::string html(page.before_data);
   append_script_json(data, html);
   html += page.before_views;
-  const std::vector<std::string_view> chosen = choose_views(views);
+  const std::vector<std::string_view> chosen = choose_views(views, html.size() + page.after_views.size());
   std::size_t size = html.size() + page.after_views.size();
   for (const std::string_view view : chosen) size += base64_size(view.size()) + 1;
   html.reserve(size);  // megabytes, of which doubling would ask for up to three times as many

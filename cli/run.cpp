@@ -86,20 +86,23 @@ void run(RunSettings settings) {
   wanted.live = settings.live;
   wanted.longest_side = settings.longest_side;
   wanted.final_pass = settings.final_pass;
-  wanted.keep_pictures = settings.report || settings.view || !settings.video.empty();
+  wanted.keep_pictures = true;  // the map's colours come from them
   io::prepare_output_folder(settings.out);
   const FolderLock lock = FolderLock::demand(settings.out);
 
   System system(std::move(wanted));
   const std::size_t frames = dataset.frames.size(), known_keyframes = known.keyframes.size();
-  if (!known.empty()) system.resume(std::move(known));
   RunRecorder recorder(system.camera(), frames, settings.report ? (frames + kMaxViews - 1) / kMaxViews : 0);
+  if (!known.empty()) {
+    recorder.colours.note(known, load_map_colours(settings.map, known));
+    system.resume(std::move(known));
+  }
   system.add_observer(recorder);
   std::optional<OverlayVideo> video;
   if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, system.camera()));
   const RunContext context{settings, dataset, camera.source, camera.camera, system.camera()};
   std::optional<LiveView> live;
-  if (settings.view) system.add_observer(live.emplace(context).observer());
+  if (settings.view) system.add_observer(live.emplace(context, recorder.colours).observer());
   Progress progress(frames, settings.verbosity, "run");
   ProgressObserver progress_observer(progress);
   system.add_observer(progress_observer);

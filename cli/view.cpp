@@ -26,6 +26,7 @@ std::string map_page(const fs::path& file) {
   RunFolder run;
   run.name = file.filename().string();
   run.map = load_run_map(file);
+  run.colours = load_map_colours(file, run.map);
   run.keyframes = keyframe_poses(run.map);
   run.metrics = {{"keyframes", run.keyframes.size()},
                  {"points", count_alive(run.map.points)},

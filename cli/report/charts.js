@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curves over time, each with a cursor at the shown frame; a click goes to a frame.
 
-const kPlot = { left: 44, right: 8, top: 6, bottom: 18 };
+const kPlot = { left: 44, right: 8, top: 8, bottom: 18 };
 
 // 1, 2 or 5 times a power of ten, for about `wanted` steps over `extent`.
 function tickStep(extent, wanted) {
@@ -14,15 +14,18 @@ class Chart {
   constructor(title, series, options = {}) {
     this.series = series;
     this.whole = options.whole ?? 0;  // the axis reaches at least this far
+    this.counts = options.counts ?? false;  // whole numbers
     this.values = series.map((s) => element("span", { className: "value" }));
     const legend = series.map((s, i) => element("span", {}, element("span", { className: "swatch", style: `color: var(--${s.ink})` }), `${s.label} `, this.values[i]));
     this.canvas = element("canvas", { role: "img", "aria-label": `${title} over time` });
     this.cursor = element("div", { className: "cursor" });
     this.plot = element("div", { className: "plot" }, this.canvas, this.cursor);
-    byId("charts").append(element("figure", { className: "card chart" }, element("header", {}, element("b", {}, title), ...legend), this.plot));
+    byId("charts").append(element("figure", { className: "card chart" }, element("header", {}, element("b", {}, title), ...legend,
+      element("button", { type: "button", className: "save", title: "Save this chart as SVG", onclick: () => this.save() }, "SVG")), this.plot));
+    this.title = title;
+    redraws.push(() => this.draw());
     this.plot.addEventListener("pointerdown", (event) => this.point(event));
     this.plot.addEventListener("pointermove", (event) => { if (event.buttons) this.point(event); });
-    redraws.push(() => this.draw());
     shown.listen((row) => this.mark(row));
   }
 
@@ -45,22 +48,53 @@ class Chart {
   draw() {
     const cleared = clearedContext(this.canvas);
     if (!cleared) return;
-    const { context, width, height } = cleared;
-    this.width = width;
-    let high = this.whole;
-    for (const s of this.series)
-      for (const value of s.values()) if (value > high) high = value;
-    high = high > 0 ? Math.max(this.whole, 1.04 * high) : 1;
-    const y = (value) => height - kPlot.bottom - (height - kPlot.top - kPlot.bottom) * value / high;
-    this.drawStates(context, height);
-    this.drawTicks(context, high, y, height);
-    for (const s of this.series) this.drawCurve(context, s, y);
+    this.width = cleared.width;
+    this.drawOn(cleared.context, cleared.height);
     this.mark(shown.row);
   }
 
-  // Behind the curves: where the frame had no Manhattan rotation, or no pose.
+  save() {
+    const [width, height] = [this.width, this.canvas.clientHeight];
+    const svg = new SvgContext(width, height, `${this.title}: ${this.series.map((s) => s.label).join(", ")}`);
+    this.drawOn(svg, height);
+    offerFile(`${this.title.toLowerCase().replaceAll(" ", "_")}.svg`, new Blob([svg.text()], { type: "image/svg+xml" }));
+  }
+
+  drawOn(context, height) {
+    const high = this.top();
+    const y = (value) => height - kPlot.bottom - (height - kPlot.top - kPlot.bottom) * Math.min(value / high, 1);
+    this.drawStates(context, height);
+    this.drawTicks(context, high, y, height);
+    for (const s of this.series) this.drawCurve(context, s, y);
+    this.drawBeyond(context, high);
+  }
+
+  // The upper end of the axis. A few frames that are far above all others are cut off, else they would flatten the rest.
+  top() {
+    let high = this.whole, usual = 0;
+    for (const s of this.series) {
+      const values = s.values().filter((value) => !Number.isNaN(value));
+      if (values.length === 0) continue;
+      high = values.reduce((a, b) => Math.max(a, b), high);
+      usual = Math.max(usual, quantile(values, 0.98));
+    }
+    if (usual > 0 && high > 3 * usual) high = Math.max(this.whole, 1.5 * usual);
+    return high > 0 ? Math.max(this.whole, 1.04 * high) : 1;
+  }
+
+  // A mark above each frame that is cut off.
+  drawBeyond(context, high) {
+    for (const s of this.series) {
+      context.fillStyle = colour(s.ink);
+      s.values().forEach((value, row) => {
+        if (value > high) context.fillRect(this.x(row) - 1.5, kPlot.top - 5, 3, 4);
+      });
+    }
+  }
+
+  // Behind the curves: where the pose has no Manhattan rotation in it, or there is none.
   drawStates(context, height) {
-    const noted = (row) => (["lost", "fallback"].includes(run.state(row)) ? run.state(row) : null);
+    const noted = (row) => (["lost", "fallback"].includes(run.look(row)) ? run.look(row) : null);
     context.globalAlpha = 0.2;
     for (const span of spansOf(run.frames.count, noted)) {
       context.fillStyle = colour(span.key);
@@ -73,7 +107,7 @@ class Chart {
   drawTicks(context, high, y, height) {
     context.font = "11px system-ui, sans-serif";
     context.lineWidth = 1;
-    const step = tickStep(high, 3);
+    const step = this.counts ? Math.max(1, tickStep(high, 3.5)) : tickStep(high, 3.5);
     context.textAlign = "right";
     for (let value = 0; value <= high * 1.001; value += step) {
       context.strokeStyle = colour("line");
@@ -132,10 +166,10 @@ function showCharts() {
     new Chart("Rotation error", [{ label: "after a constant offset", ink: "accent", values: () => run.errors.rotation_deg, unit: "°" }]);
   }
   if (frames.has("point_inliers"))
-    new Chart("Map seen again", [{ label: "points", ink: "accent", values: column("point_inliers") }, { label: "lines", ink: "x", values: column("line_inliers") }]);
-  if (frames.has("axes_seen")) new Chart("Manhattan axes seen", [{ label: "seen", ink: "manhattan", values: column("axes_seen"), unit: "of 3" }], { whole: 3 });
+    new Chart("Map seen again", [{ label: "points", ink: "accent", values: column("point_inliers") }, { label: "lines", ink: "x", values: column("line_inliers") }], { counts: true });
+  if (frames.has("axes_seen")) new Chart("Manhattan axes seen", [{ label: "seen", ink: "manhattan", values: column("axes_seen"), unit: "of 3" }], { whole: 3, counts: true });
   if (frames.has("frame_ms"))
     new Chart("Time for a frame", [{ label: "all", ink: "accent", values: column("frame_ms"), unit: "ms" }, { label: "tracking", ink: "x", values: column("tracking_ms"), unit: "ms" }]);
   if (frames.has("points"))
-    new Chart("Features found", [{ label: "points", ink: "accent", values: column("points") }, { label: "lines", ink: "x", values: column("lines") }]);
+    new Chart("Features found", [{ label: "points", ink: "accent", values: column("points") }, { label: "lines", ink: "x", values: column("lines") }], { counts: true });
 }

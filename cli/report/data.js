@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run, as report_data.cpp wrote it, with its arrays unpacked. One global: run.
 
-const kArrayTypes = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, i8: Int8Array };
+const kArrayTypes = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, i32: Int32Array, u16: Uint16Array, u8: Uint8Array, i8: Int8Array };
 
 function bytesOf(base64) {
   const text = atob(base64);
@@ -44,6 +44,13 @@ function numbersOr(otherwise, values, count) {
   return good ? values : otherwise;
 }
 
+// What report_data.cpp calls witnesses, with the list of each landmark's keyframes cut out of the common one.
+function withWitnesses({ counts, listed, keyframes, planes }) {
+  const from = new Uint32Array(listed.length + 1);
+  listed.forEach((count, i) => { from[i + 1] = from[i] + count; });
+  return { counts, planes, keyframesOf: (i) => [...keyframes.subarray(from[i], from[i + 1])] };
+}
+
 function makeRun(raw) {
   const metrics = raw.metrics;  // as it was written: it may have a member called base64
   delete raw.metrics;
@@ -67,6 +74,11 @@ function makeRun(raw) {
     trajectoryThere: data.poses.some((value) => !Number.isNaN(value)),
     hasPose: (row) => !Number.isNaN(data.poses[7 * row]),
     state: (row) => frames.text("state", row),
+    // The state by which a frame is coloured: a pose that has the Manhattan rotation in it is the structure's, also
+    // where six degrees of freedom were searched.
+    look: (row) => (frames.text("state", row) === "fallback" && frames.number("structure", row) === 1 ? "manhattan" : frames.text("state", row)),
+    pointWitnesses: withWitnesses(data.point_witnesses),
+    lineWitnesses: withWitnesses(data.lines.witnesses),
     reason: (row) => frames.text("reason", row),
   };
 }

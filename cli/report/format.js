@@ -31,6 +31,24 @@ function countOf(number, noun) { return `${number} ${noun}${number === 1 ? "" : 
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
 
+// The states of frames, in words.
+const kStateWords = {
+  manhattan: "rotation from the room's structure", fallback: "six degrees of freedom, without the room's structure",
+  lost: "lost", initialising: "no map yet",
+};
+
+// What kept a frame from the usual way, in words; frames.csv has the short names.
+const kReasonWords = {
+  "too few features": "too few features in the image",
+  "too few matches": "too few matches with the map",
+  "low parallax": "the camera has not moved sideways far enough",
+  "no consensus": "the matches do not agree on one motion",
+  "no Manhattan evidence": "the room's axes gave no rotation that is certain enough",
+  "Manhattan pose rejected": "the pose with the room's rotation does not fit the map",
+  "uncertain pose": "the pose is too uncertain to be used",
+  relocalised: "found again in the map",
+};
+
 const kAxes = ["x", "y", "z"];
 function axisName(axis) { return kAxes[axis] ?? "none"; }
 

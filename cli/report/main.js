@@ -61,13 +61,45 @@ function showLayers(view) {
     button.dataset.layer = layer.name;
     return button;
   });
-  byId("layers").append(...buttons, element("span", { className: "spring" }));
+  byId("layers").append(...buttons);
   if (!(view instanceof Scene3D)) return;
   const follow = toggleButton("Follow camera", (on) => view.viewpoint.setFollow(on));
   follow.id = "follow";
   follow.classList.add("mode");
   follow.setAttribute("aria-pressed", "false");
-  byId("layers").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.viewpoint.reset() }, "Reset"));
+  byId("tools").append(follow, element("button", { type: "button", id: "reset", onclick: () => view.viewpoint.reset() }, "Reset"));
+}
+
+// A list of words to choose from, with what each does.
+function chooser(label, words, choose) {
+  const select = element("select", { "aria-label": label, title: label, onchange: () => choose(select.value) },
+    ...words.map(([value, text]) => element("option", { value }, text)));
+  return select;
+}
+
+// What can be done with the view.
+function showTools(view) {
+  const button = (label, title, onclick) => element("button", { type: "button", title, onclick }, label);
+  const tools = byId("tools");
+  if (view instanceof Scene3D) {
+    const size = element("input", { type: "range", id: "point-size", min: 1, max: 10, step: 0.5, value: kPointSize, oninput: () => view.setPointSize(Number(size.value)) });
+    tools.append(element("label", {}, "Point size ", size));
+    if (run.coloured || run.kind === "live") tools.append(chooser("Colour of points and lines", [["seen", "Colours as seen"], ["axes", "Colours by axis"]], (value) => view.setSeenColours(value === "seen")));
+    if (run.frames.count > 0 || run.kind === "live") {
+      const words = [["state", "Path by state"], ...(run.errors ? [["error", "Path by error"]] : []), ["time", "Path by time"]];
+      tools.append(chooser("Colour of the path", words, (value) => view.setPathColours(value)));
+    }
+    window.picker = new Picker(view);
+    const measure = toggleButton("Measure", (on) => picker.setMeasures(on));
+    measure.id = "measure";
+    measure.classList.add("mode");
+    measure.setAttribute("aria-pressed", "false");
+    tools.append(measure);
+  }
+  tools.append(button("Save PNG", "Save this picture", () => savePicture(view)));
+  if (run.frames.count > 0) tools.append(button("Save CSV", "Save the frames with their poses and errors", saveCsv), button("Link", "Put the shown frame into this page's address, and copy that", linkToFrame));
+  if (document.fullscreenEnabled)
+    tools.append(button("Full screen", "Full screen, or back", () => (document.fullscreenElement ? document.exitFullscreen() : document.querySelector(".stage").requestFullscreen())));
 }
 
 function showFrameText(row) {
@@ -75,8 +107,9 @@ function showFrameText(row) {
   if (frames.count === 0) return;
   const [index, image, state, reason] = ["index", "image", "state", "reason"].map((name) => frames.text(name, row));
   byId("frame-name").textContent = `${index} · ${image}`;
-  byId("frame-state").replaceChildren(element("span", { className: "swatch", style: `color: var(--${state})` }),
-    [state + (reason ? `: ${reason}` : ""), frames.number("keyframe", row) ? "keyframe" : ""].filter(Boolean).join(" · "));
+  const words = (kStateWords[run.look(row)] ?? state) + (reason ? `: ${kReasonWords[reason] ?? reason}` : "");
+  byId("frame-state").replaceChildren(element("span", { className: "swatch", style: `color: var(--${run.look(row)})` }),
+    [words, frames.number("keyframe", row) ? "keyframe" : ""].filter(Boolean).join(" · "));
   byId("clock").replaceChildren(clock(row), element("span", { className: "long" }, ` · ${row + 1} of ${frames.count}`));
   byId("slider").value = row;
   byId("slider").setAttribute("aria-valuetext", `frame ${index}, ${state}`);
@@ -86,7 +119,7 @@ function drawStrip() {
   const cleared = clearedContext(byId("strip"));
   if (!cleared) return;
   const { context, width, height } = cleared;
-  for (const span of spansOf(run.frames.count, (row) => run.state(row) || "none")) {
+  for (const span of spansOf(run.frames.count, (row) => run.look(row) || "none")) {
     context.fillStyle = colour(span.key) || colour("none");
     const x = width * span.from / run.frames.count;
     context.fillRect(x, 0, Math.max(width * (span.to + 1) / run.frames.count - x, 1), height);
@@ -125,14 +158,14 @@ const kKeys = [
   { keys: ["f", "F"], name: "F", does: "follow the camera", act: () => byId("follow")?.click() },
   { keys: ["r", "R"], name: "R", does: "reset the view", act: () => byId("reset")?.click() },
   { keys: ["t", "T"], name: "T", does: "light or dark", act: () => byId("theme").click() },
-  { keys: ["1", "2", "3", "4", "5", "6", "7"], name: "1 to 7", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]:not([hidden])")[Number(event.key) - 1]?.click() },
+  { keys: ["1", "2", "3", "4", "5", "6", "7", "8"], name: "1 to 8", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]:not([hidden])")[Number(event.key) - 1]?.click() },
 ];
 
 function listenToKeys() {
   list("keys", [...kKeys.filter((key) => key.name).map((key) => [key.name, key.does]), ["in the 3D view: arrows, + and -", "orbit and zoom"],
-    ["mouse: left, right, wheel", "orbit, move, zoom"]]);
+    ["mouse: left, right, wheel", "orbit, move, zoom"], ["a click in the 3D view", "tells what lies there"]]);
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("summary, a")) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("summary, a, select, #point-size")) return;
     if (event.key === " " && event.target.closest?.("button")) return;
     const key = kKeys.find((entry) => entry.keys.includes(event.key));
     if (!key) return;
@@ -181,16 +214,22 @@ function main() {
   redraws.push(drawStrip);
   const view = makeView();
   showLayers(view);
+  showTools(view);
   listenToKeys();
   hideMissing();
   window.addEventListener("resize", redrawAll);
   document.addEventListener("DOMContentLoaded", () => {
-    part("pictures", () => { window.views = new Views(); });
+    part("pictures", () => {
+      window.views = new Views();
+      if (view instanceof Scene3D) view.renew();
+      hideMissing();
+    });
     redrawAll();
     document.documentElement.dataset.ready = "yes";
     if (run.kind === "live") followRun();
   });
-  shown.set(run.kind === "live" ? run.frames.count - 1 : 0);
+  shown.set(run.kind === "live" ? run.frames.count - 1 : firstRow());
+  window.addEventListener("hashchange", () => { if (rowOfAddress() >= 0) shown.set(rowOfAddress()); });
   redrawAll();
   window.view3d = view;
 }

@@ -3,7 +3,7 @@
 set(report_source "${CMAKE_CURRENT_LIST_DIR}")
 set(report_build "${CMAKE_CURRENT_BINARY_DIR}/report")
 set(report_scripts data.js format.js story.js top_view.js viewpoint.js scene_parts.js scene.js charts.js views.js
-                   sphere.js tables.js live.js main.js)
+                   sphere.js tables.js save.js pick.js live.js main.js)
 
 set(three "")
 set(three_licence "")

@@ -16,6 +16,7 @@ namespace sslam::cli {
 [[nodiscard]] nlohmann::ordered_json report_data(RunFolder& run);
 
 // As many of the views, evenly spaced, as fit into the page.
-[[nodiscard]] std::vector<std::string_view> choose_views(const std::vector<std::string>& views);
+[[nodiscard]] std::vector<std::string_view> choose_views(const std::vector<std::string>& views,
+                                                         std::size_t taken);
 
 }  // namespace sslam::cli

@@ -2,6 +2,8 @@
 // The 3D view: map, paths and cameras, drawn only when something has changed.
 
 const kPointsInMotion = 10000;
+const kPointSize = 3;     // pixels
+const kMostPictures = 150;  // in the frustums of keyframes
 
 class Scene3D {
   constructor(canvas, { context, software }) {
@@ -17,6 +19,10 @@ class Scene3D {
     this.layers = {};
     this.materials = {};  // by layer: they outlive what they are on
     this.hidden = new Set();
+    this.textures = new Map();  // of keyframes, by row
+    this.marked = [];
+    this.seenColours = run.coloured;
+    this.pathColours = "state";
     this.measure();
     this.viewpoint = new Viewpoint(canvas, this.world, this.middle, this.radius, () => this.request());
     this.build();
@@ -70,8 +76,9 @@ class Scene3D {
     const addPlain = (name, ends) => this.add(name,
       new THREE.LineSegments(geometryOf(new Float32Array(ends)), this.material(name, () => new THREE.LineBasicMaterial())));
     addPlain("grid", this.gridEnds());
-    const dots = this.material("points", () => new THREE.PointsMaterial({ size: 2, sizeAttenuation: false }));
-    this.add("points", new THREE.Points(geometryOf(mixedPoints(run.points)), dots));
+    const dots = this.material("points", () => new THREE.PointsMaterial({ size: kPointSize, sizeAttenuation: false, vertexColors: true }));
+    const points = geometryOf(mixedTriples(run.points)).setAttribute("color", new THREE.BufferAttribute(new Float32Array(run.points.length), 3));
+    this.add("points", new THREE.Points(points, dots));
     this.addWide("lines", run.lines.ends, 2, true);
     this.addPlanes(run.planes);
     this.pathRows = [];  // the later frame of each step of the path
@@ -84,10 +91,17 @@ class Scene3D {
     this.addWide("path", new Float32Array(steps), 3, true);
     if (run.truth) this.addWide("truth", joinedPoints(run.truth.positions), 1.5, false);
     const size = 0.05 * this.radius / run.scale;
+    this.frustum = 0.6 * size;
     const small = [];
     for (let i = 0; i < run.keyframes.length; i += 7) small.push(...frustumEnds(run.keyframes.subarray(i, i + 7), 0.6 * size));
     addPlain("keyframes", small);
-    this.eye = addPlain("eye", frustumEnds([0, 0, 0, 0, 0, 0, 1], 1.6 * size));
+    this.eye = addPlain("eye", frustumEnds([0, 0, 0, 0, 0, 0, 1], 3 * size));
+    this.eyePicture ??= this.pictureMesh();
+    this.eyePicture.geometry.dispose();
+    this.eyePicture.geometry = this.quadGeometry(frustumCorners([0, 0, 0, 0, 0, 0, 1], 3 * size));
+    this.eye.add(this.eyePicture);
+    this.add("marks", new THREE.LineSegments(geometryOf(new Float32Array(this.marked)), this.material("marks", () => new THREE.LineBasicMaterial({ depthTest: false }))));
+    this.addPictures();
   }
 
   // Translucent rectangles, two triangles each; they hide neither each other nor what is behind.
@@ -101,6 +115,109 @@ class Scene3D {
     this.add("planes", new THREE.Mesh(geometry, material));
   }
 
+  quadGeometry(corners) {
+    const positions = new Float32Array([0, 1, 2, 0, 2, 3].flatMap((c) => corners[c]));
+    const places = new Float32Array([0, 1, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0]);
+    return geometryOf(positions).setAttribute("uv", new THREE.BufferAttribute(places, 2));
+  }
+
+  pictureMesh(texture = null, geometry = new THREE.BufferGeometry()) {
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ map: texture, side: THREE.DoubleSide }));
+    mesh.frustumCulled = false;
+    return mesh;
+  }
+
+  textureOf(image) {
+    const texture = new THREE.Texture(image);
+    texture.colorSpace = THREE.SRGBColorSpace;
+    texture.generateMipmaps = true;
+    texture.needsUpdate = true;
+    return texture;
+  }
+
+  // The pictures of keyframes in their frustums, where they are among the views. Each is decoded once.
+  addPictures() {
+    const group = this.add("pictures", new THREE.Group());
+    this.pictureQuads = [];
+    this.eyePicture.visible = group.visible && Boolean(this.eyePicture.material.map);
+    if (!window.views?.rows) return;
+    const places = new Map(views.rows.map((row, at) => [row, at]));
+    const there = Array.from(run.keyframe_rows, (row, index) => ({ row, index })).filter(({ row }) => places.has(row));
+    const step = Math.ceil(there.length / kMostPictures);
+    for (const { row, index } of there.filter((_, i) => i % step === 0)) {
+      const corners = frustumCorners(run.keyframes.subarray(7 * index, 7 * index + 7), this.frustum);
+      this.pictureQuads.push({ index, corners });
+      const mesh = this.pictureMesh(null, this.quadGeometry(corners));
+      mesh.visible = false;
+      group.add(mesh);
+      const show = (texture) => {
+        mesh.material.map = texture;
+        mesh.material.needsUpdate = mesh.visible = true;
+        this.request();
+      };
+      const known = this.textures.get(row);
+      if (known) show(known);
+      else this.loadPicture(row, places.get(row), show);
+    }
+  }
+
+  loadPicture(row, at, show) {
+    const blob = decodeView(views.texts[at]).image;
+    if (!blob) return;
+    const image = new Image();
+    image.onload = () => {
+      URL.revokeObjectURL(image.src);
+      const texture = this.textures.get(row) ?? this.textureOf(image);
+      this.textures.set(row, texture);
+      show(texture);
+    };
+    image.src = URL.createObjectURL(blob);
+  }
+
+  // The picture of the shown frame, when it is there.
+  showPicture(image) {
+    this.eyePicture.material.map?.dispose();
+    this.eyePicture.material.map = this.textureOf(image);
+    this.eyePicture.material.needsUpdate = true;
+    this.eyePicture.visible = this.layers.pictures.visible;
+    this.request();
+  }
+
+  // Segments over everything else, and a cross at a place.
+  mark(ends, place = null) {
+    const size = 0.015 * this.radius / run.scale;
+    const cross = place === null ? [] : [0, 1, 2].flatMap((axis) => [-size, size].flatMap((by) => place.map((value, k) => value + (k === axis ? by : 0))));
+    this.marked = [...ends, ...cross];
+    const old = this.layers.marks;
+    this.world.remove(old);
+    old.geometry.dispose();
+    this.add("marks", new THREE.LineSegments(geometryOf(new Float32Array(this.marked)), this.materials.marks));
+    this.request();
+  }
+
+  setPointSize(size) {
+    this.materials.points.size = size;
+    this.request();
+  }
+
+  // seen: points and lines in the colours in which they were seen, else by the Manhattan axes.
+  setSeenColours(seen) {
+    this.seenColours = seen;
+    this.restyle();
+  }
+
+  // by: "state", "error" or "time".
+  setPathColours(by) {
+    this.pathColours = by;
+    this.restyle();
+  }
+
+  pathColour(row, states) {
+    const shareOf = { error: (r) => run.errors.position_m[r] / this.worst, time: (r) => r / Math.max(run.frames.count - 1, 1) }[this.pathColours];
+    if (!shareOf) return states[run.look(row)] ?? states.manhattan;
+    return lightOf(rampColour(shareOf(row)), 0);
+  }
+
   // The run has grown.
   renew() {
     const old = Object.values(this.layers);
@@ -109,7 +226,7 @@ class Scene3D {
     this.build();
     for (const object of old) {
       this.world.remove(object);
-      object.geometry.dispose();
+      object.traverse((part) => { if (part !== this.eyePicture) part.geometry?.dispose(); });
     }
     this.viewpoint.grow(this.middle, this.radius);
   }
@@ -130,18 +247,24 @@ class Scene3D {
   restyle() {
     const ink = (name) => new THREE.Color(colour(name));
     this.scene.background = ink("stage");
-    for (const [name, from] of [["grid", "grid"], ["points", "points"], ["truth", "truth"], ["keyframes", "accent"], ["eye", "accent"]])
+    for (const [name, from] of [["grid", "grid"], ["marks", "accent"], ["truth", "truth"], ["keyframes", "accent"], ["eye", "accent"]])
       this.layers[name]?.material.color.copy(ink(from));
     const axes = [...kAxes, "none"].map(ink);
-    this.paint("lines", run.lines.axes.length, (i) => axes[run.lines.axes[i]] ?? axes[3]);
+    const seen = this.seenColours && run.coloured;
+    this.paint("lines", run.lines.axes.length, (i) => (seen ? lightOf(run.lines.colours, i) : axes[run.lines.axes[i]] ?? axes[3]));
+    const dots = this.layers.points.geometry.attributes.color, plain = ink("points");
+    if (seen) dots.array.set(mixedTriples(run.point_colours).map((value) => kLight[value]));
+    else for (let i = 0; i < dots.count; ++i) dots.setXYZ(i, plain.r, plain.g, plain.b);
+    dots.needsUpdate = true;
     const { color } = this.layers.planes.geometry.attributes;
     run.planes.axes.forEach((axis, i) => {
       const { r, g, b } = axes[axis] ?? axes[3];
       for (let k = 6 * i; k < 6 * i + 6; ++k) color.setXYZ(k, r, g, b);
     });
     color.needsUpdate = true;
+    this.worst = run.errors ? quantile(run.errors.position_m.filter((value) => !Number.isNaN(value)), 0.98) || 1 : 1;
     const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
-    this.paint("path", this.pathRows.length, (i) => states[run.state(this.pathRows[i])] ?? states.manhattan);
+    this.paint("path", this.pathRows.length, (i) => this.pathColour(this.pathRows[i], states));
     this.showFrame();
   }
 
@@ -149,6 +272,7 @@ class Scene3D {
     if (on) this.hidden.delete(name);
     else this.hidden.add(name);
     if (this.layers[name]) this.layers[name].visible = on;
+    if (name === "pictures") this.eyePicture.visible = on && Boolean(this.eyePicture.material.map);
     this.request();
   }
 

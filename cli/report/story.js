@@ -16,7 +16,7 @@ function spansOf(count, same) {
   return spans;
 }
 
-// "too few matches (10), no consensus (2)": the most frequent first.
+// "too few matches with the map (10 frames), ...": the most frequent first.
 function reasonsIn(span) {
   const counts = new Map();
   for (let row = span.from; row <= span.to; ++row) {
@@ -24,8 +24,9 @@ function reasonsIn(span) {
     if (reason) counts.set(reason, (counts.get(reason) ?? 0) + 1);
   }
   const sorted = [...counts].sort((a, b) => b[1] - a[1]);
-  if (sorted.length === 1) return sorted[0][0];
-  return sorted.map(([reason, count]) => `${reason} (${count})`).join(", ");
+  const words = (reason) => kReasonWords[reason] ?? reason;
+  if (sorted.length === 1) return words(sorted[0][0]);
+  return sorted.map(([reason, count]) => `${words(reason)} (${countOf(count, "frame")})`).join(", ");
 }
 
 function whereOf(span) {
@@ -51,12 +52,13 @@ function spanStory(span, first) {
   if (span.key === "fallback") {
     return {
       state: "fallback", row: span.from, length,
-      text: `Six degrees of freedom in place of the Manhattan rotation for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}.`,
+      text: `The room's structure has no part in the pose of ${countOf(length, "frame")} (${whereOf(span)})${because(span)}. Points and lines alone gave all six degrees of freedom.`,
     };
   }
   const late = length > 30 || length > 0.1 * run.frames.count;
-  const what = next ? `The ${first ? "first" : "next"} map stood after ${countOf(length, "frame")}` : `No map after ${countOf(length, "frame")}`;
-  return { state: late ? "lost" : "initialising", text: `${what} (${whereOf(span)})${because(span)}.`, row: span.from, length };
+  const what = next ? `The ${first ? "first" : "next"} map was made after ${countOf(length, "frame")}` : `There was no map yet after ${countOf(length, "frame")}`;
+  const advice = late && reasonsIn(span).includes(kReasonWords["low parallax"]) ? " Begin with a slow movement to the side." : "";
+  return { state: late ? "lost" : "initialising", text: `${what} (${whereOf(span)})${because(span)}.${advice}`, row: span.from, length };
 }
 
 // The longest in full, then a count.
@@ -88,8 +90,8 @@ function tellStory() {
   if (metrics.interrupted) items.push({ state: "lost", text: `The run was interrupted after ${countOf(frames.count, "frame")}.` });
   if (frames.has("state")) {
     // A frame that is found again says so where the loss is told.
-    const noted = (row) => ["lost", "fallback", "initialising"].includes(run.state(row)) && run.reason(row) !== "relocalised";
-    const spans = spansOf(frames.count, (row) => (noted(row) ? run.state(row) : null));
+    const noted = (row) => ["lost", "fallback", "initialising"].includes(run.look(row)) && run.reason(row) !== "relocalised";
+    const spans = spansOf(frames.count, (row) => (noted(row) ? run.look(row) : null));
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
     items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 4, "of the same"));
   }
@@ -101,7 +103,7 @@ function tellStory() {
   if (metrics.maps_apart > 0)
     items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be connected with this one: no place was seen in both. Those frames have no pose in the trajectory.` });
   const unseen = metrics.frames_without_normal_evidence;
-  if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals gave no Manhattan evidence: lines alone spoke for the axes there.` });
+  if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals showed none of the room's axes: too few planes were in view. Lines alone gave the axes there.` });
   const worst = run.errors ? greatest(run.errors.position_m) : -1;
   if (worst >= 0) items.push({ state: "manhattan", text: `The largest position error is ${figure(run.errors.position_m[worst])} m (${whereOf({ from: worst, to: worst })}).`, row: worst });
   const slowest = frames.has("frame_ms") ? greatest(frames.all("frame_ms")) : -1;
@@ -113,14 +115,20 @@ function tellStory() {
 }
 
 function headline() {
-  const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.state(row)).filter((s) => s === state).length;
+  const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.look(row)).filter((s) => s === state).length;
   const lost = rows("lost"), fallback = rows("fallback");
   if (run.kind === "live") return `The run goes on: ${run.frames.count} of ${countOf(run.total, "frame")} so far.`;
   if (run.frames.count === 0) return "";
-  if (run.metrics.tracked === 0) return "No frame was tracked: below stands why.";
+  if (run.metrics.tracked === 0) return "No frame was tracked. The list below says why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];
-  parts.push(fallback === 0 ? "the Manhattan rotation held in every frame with a map" : `${countOf(fallback, "frame")} by the fallback`);
+  parts.push(fallback === 0 ? "the room's structure is in the pose of every frame with a map" : `${countOf(fallback, "frame")} without the room's structure`);
   return `${parts.join("; ")}.`;
+}
+
+// The frame, and the part of the page that shows it.
+function showAt(row) {
+  shown.set(row);
+  document.querySelector(".stage-row").scrollIntoView({ block: "nearest" });
 }
 
 function showStory() {
@@ -128,7 +136,7 @@ function showStory() {
   for (const item of tellStory()) {
     const line = element("li", {}, element("i", { style: `background: var(--${item.state})` }), element("span", {}, item.text));
     if (item.row !== undefined && run.frames.count > 0)
-      line.append(element("button", { type: "button", onclick: () => shown.set(item.row) }, "Show"));
+      line.append(element("button", { type: "button", onclick: () => showAt(item.row) }, "Show"));
     byId("story").append(line);
   }
 }

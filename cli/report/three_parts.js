@@ -14,7 +14,9 @@ export {
   Points,
   PointsMaterial,
   Quaternion,
+  SRGBColorSpace,
   Scene,
+  Texture,
   Vector3,
   WebGLRenderer,
 } from "three";

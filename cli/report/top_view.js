@@ -41,8 +41,10 @@ class TopView {
   }
 
   drawPoints(context) {
+    const { point_colours: seen } = run;
     context.fillStyle = colour("points");
     for (let i = 0; i < run.points.length; i += 3) {
+      if (run.coloured) context.fillStyle = `rgb(${seen[i]} ${seen[i + 1]} ${seen[i + 2]})`;
       const [x, y] = this.place(run.points[i], run.points[i + 2]);
       context.fillRect(x - 0.75, y - 0.75, 1.5, 1.5);
     }
@@ -113,6 +115,7 @@ const kLayers = [
   { name: "path", label: "Estimate", ink: "manhattan", there: () => run.trajectoryThere },
   { name: "truth", label: "Ground truth", ink: "truth", there: () => Boolean(run.truth) },
   { name: "keyframes", label: "Keyframes", ink: "accent", there: () => run.keyframes.length > 0 },
+  { name: "pictures", label: "Pictures", ink: "accent", there: () => run.keyframes.length > 0 && !byId("view").classList.contains("flat") && window.views?.texts?.length > 0 },
   { name: "grid", label: "Floor grid", ink: "none", there: () => !byId("view").classList.contains("flat") },
 ];
 
@@ -121,24 +124,24 @@ function forwardOf([, , , x, y, z, w]) {
   return [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
 }
 
-// Low and high corner of what is worth looking at: all poses and keyframes, and points between the 2nd and the 98th percentile.
+// Low and high corner of what is worth looking at: of points, of the path and of keyframes, each between the 2nd and
+// the 98th percentile, so that what strays does not shrink the room. Lines have no say.
 function boxOfRun() {
   const box = { low: [0, 0, 0], high: [0, 0, 0] };
   for (let axis = 0; axis < 3; ++axis) {
-    const poses = [];
-    for (const list of [run.poses, run.keyframes])
-      for (let i = axis; i < list.length; i += 7)
-        if (!Number.isNaN(list[i])) poses.push(list[i]);
-    const points = [];
-    const step = 3 * Math.max(1, Math.floor(run.points.length / 3 / 20000));
-    for (let i = axis; i < run.points.length; i += step) points.push(run.points[i]);
-    points.sort((a, b) => a - b);
-    const quantile = (share) => points[Math.floor(share * (points.length - 1))];
-    const ends = points.length > 0 ? [quantile(0.02), quantile(0.98)] : [];
-    const all = [...ends, ...poses];
-    if (all.length === 0) continue;
-    box.low[axis] = all.reduce((a, b) => Math.min(a, b));
-    box.high[axis] = all.reduce((a, b) => Math.max(a, b));
+    const ends = [];
+    for (const [list, size] of [[run.points, 3], [run.poses, 7], [run.keyframes, 7]]) {
+      const values = [];
+      const step = size * Math.max(1, Math.floor(list.length / size / 20000));
+      for (let i = axis; i < list.length; i += step)
+        if (!Number.isNaN(list[i])) values.push(list[i]);
+      values.sort((a, b) => a - b);
+      const margin = Math.ceil(0.02 * (values.length - 1));  // at least one, of three or more
+      if (values.length > 0) ends.push(values[values.length > 2 ? margin : 0], values[values.length - 1 - (values.length > 2 ? margin : 0)]);
+    }
+    if (ends.length === 0) continue;
+    box.low[axis] = Math.min(...ends);
+    box.high[axis] = Math.max(...ends);
   }
   return box;
 }

@@ -79,6 +79,29 @@ class Viewpoint {
     this.changed();
   }
 
+  // Goes near a place of the map, from the side on which it is looked at.
+  flyTo(place) {
+    const at = this.world.localToWorld(new THREE.Vector3(...place));
+    const back = this.camera.position.clone().sub(this.controls.target).setLength(0.4 * this.radius);
+    this.moved = true;
+    this.controls.target.copy(at);
+    this.camera.position.copy(at).add(back);
+    this.controls.update();
+    this.changed();
+  }
+
+  // Looks from where a camera stood, the way it looked.
+  lookFrom(pose) {
+    const at = this.world.localToWorld(new THREE.Vector3(pose[0], pose[1], pose[2]));
+    const [x, y, z] = forwardOf(pose);
+    const ahead = new THREE.Vector3(x, -y, -z);
+    this.moved = true;
+    this.camera.position.copy(at).addScaledVector(ahead, -0.15 * this.radius);
+    this.controls.target.copy(at).addScaledVector(ahead, 0.4 * this.radius);
+    this.controls.update();
+    this.changed();
+  }
+
   reset() {
     if (this.follows) this.behind();
     else this.home();

@@ -56,7 +56,10 @@ class Views {
       element("figure", {}, element("div", { className: "picture" }, this.image, this.overlay), this.caption),
       element("div", { className: "toggles" }, ...toggles),
       element("div", { className: "pair" }, this.normalFigure, this.sphere.figure));
-    this.image.addEventListener("load", () => this.draw());
+    this.image.addEventListener("load", () => {
+      this.draw();
+      window.view3d?.showPicture?.(this.image);
+    });
     redraws.push(() => this.draw());
     shown.listen((row) => this.pick(row));
     this.pick(shown.row);

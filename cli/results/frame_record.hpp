@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/results/map_colours.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/system/engine.hpp"
@@ -21,7 +22,8 @@ struct RunOutcome {
   io::Trajectory trajectory;  // by the keyframes' final poses, world from camera
   io::Trajectory keyframes;   // those that this run added to the map
   Map<double> map;
-  int world = 0;  // that the map is of
+  MapColours colours;  // of the map's points and lines
+  int world = 0;       // that the map is of
   MapsApart apart;
   std::vector<Parameter> parameters;
   std::vector<std::string> warnings;

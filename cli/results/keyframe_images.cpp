@@ -52,6 +52,7 @@ KeyframeImages keyframe_images(const RunFolder& run) {
     char number[40];
     std::snprintf(number, sizeof number, "keyframe_%06d.png", static_cast<int>(keyframe.id));
     images.names.push_back(known ? found->second.image : number);
+    images.known.push_back(known);
     if (!keyframe.alive()) continue;
     strangers += known ? 0U : 1U;
     blanks += images.names.back().find(' ') != std::string::npos ? 1U : 0U;

@@ -11,6 +11,7 @@ namespace sslam::cli {
 
 struct KeyframeImages {
   std::vector<std::string> names;     // by the keyframe's id
+  std::vector<bool> known;            // whether frames.csv knows it
   std::vector<std::string> warnings;  // names that will not do
 };
 

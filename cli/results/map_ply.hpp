@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map as map.ply: its points, and its lines and planes in the colours of the Manhattan axes.
+// A map as map.ply: points and the ends of lines in the colours in which they were seen, lines and planes in
+// those of the Manhattan axes.
 #pragma once
 
 #include <array>
@@ -7,24 +8,29 @@
 #include <filesystem>
 #include <vector>
 
+#include "cli/results/map_colours.hpp"
 #include "sslam/io/maps/map_writer.hpp"
 #include "sslam/map/plane_extent.hpp"
 
 namespace sslam::cli {
 
 // Throws Error when it cannot be written.
-inline void write_map_ply(const std::filesystem::path& path, const Map<double>& map) {
+inline void write_map_ply(const std::filesystem::path& path, const Map<double>& map,
+                          const MapColours& colours) {
   constexpr std::array<io::Colour, 4> kAxisColours{
       {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none
   const auto colour_of = [&](std::int8_t axis) {
     return kAxisColours[static_cast<std::size_t>(axis == kNone ? 3 : axis_in_frame(axis))];
   };
   std::vector<io::MapPoint> points;
-  for (const auto& point : map.points)
-    if (point.alive) points.push_back({point.position});
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (map.points[i].alive)
+      points.push_back({map.points[i].position, colour_at(colours.points, i).value_or(io::kNoColour)});
   std::vector<io::MapLine> lines;
-  for (const auto& line : map.lines)
-    if (line.alive) lines.push_back({line.start, line.end, colour_of(line.axis)});
+  for (std::size_t i = 0; i < map.lines.size(); ++i)
+    if (const auto& line = map.lines[i]; line.alive)
+      lines.push_back(
+          {line.start, line.end, colour_of(line.axis), colour_at(colours.lines, i).value_or(io::kNoColour)});
   std::vector<io::MapFace> faces;
   std::vector<PlaneExtent<double>> extents;
   gather_extents(map, extents);

@@ -38,6 +38,8 @@ class Reader {
       take_poses("trajectory.txt", run_.trajectory);
       take("map.sslam", [&](const fs::path& path) { run_.map = io::load_map(path); });
     }
+    if (!run_.map.empty() && has(kColourFile))
+      take(kColourFile, [&](const fs::path& path) { run_.colours = read_colours(path, run_.map); });
     if (has(kTruthFile)) take_poses(kTruthFile, run_.truth);
     if (has(kViewFile))
       take(kViewFile, [&](const fs::path& path) { run_.views = read_views(path, run_.problems); });
@@ -108,6 +110,18 @@ Map<double> load_run_map(const fs::path& file) {
   } catch (const Error&) {  // what stands beside a map need not be a run
   }
   return map;
+}
+
+MapColours load_map_colours(const fs::path& file, const Map<double>& map) {
+  const fs::path colours = file.parent_path() / kColourFile;
+  std::error_code ignored;
+  if (!fs::is_regular_file(colours, ignored)) return {};
+  try {
+    return read_colours(colours, map);
+  } catch (const std::exception& problem) {
+    print_warning(std::string(problem.what()) + ": points and lines are grey");
+    return {};
+  }
 }
 
 RunFolder read_run_folder(const fs::path& folder) {

@@ -8,19 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "cli/results/map_colours.hpp"
 #include "sslam/io/files/csv_reader.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam::cli {
 
-// Files that the report alone needs; the others are named where they are written.
+// Files that not every run writes; the others are named where they are written.
 inline constexpr const char* kTruthFile = "groundtruth.txt";
 inline constexpr const char* kViewFile = "views.bin";
+inline constexpr const char* kColourFile = "colours.bin";  // of the map beside it
 inline constexpr const char* kReportFile = "report.html";
 
 // Those that a run need not write.
-inline constexpr std::array kOptionalFiles{"map.sslam", kTruthFile, kViewFile, kReportFile};
+inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile, kTruthFile, kViewFile, kReportFile};
 
 struct RunFolder {
   std::string name;  // of the folder, for people
@@ -28,6 +30,7 @@ struct RunFolder {
   io::CsvTable frames;
   io::Trajectory trajectory, keyframes, truth;
   Map<double> map;
+  MapColours colours;
   std::vector<std::string> views;
   std::vector<std::string> problems;  // a line each: a file that is missing, damaged or flawed
 };
@@ -37,6 +40,10 @@ struct RunFolder {
 
 // The map in `file`, and a warning where it is not that of the run beside it. Throws Error.
 [[nodiscard]] Map<double> load_run_map(const std::filesystem::path& file);
+
+// The colours of that map, from the file beside it; none where there is no such file, and with a warning
+// where it does not fit.
+[[nodiscard]] MapColours load_map_colours(const std::filesystem::path& file, const Map<double>& map);
 
 // Throws Error when `folder` is none, or holds neither frames.csv nor metrics.json in a readable state.
 [[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);

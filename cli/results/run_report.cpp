@@ -202,8 +202,9 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   const io::Trajectory live = live_trajectory(outcome);
   io::write_trajectory(out / "trajectory_live.txt", live);
   io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
-  write_map_ply(out / "map.ply", outcome.map);
+  write_map_ply(out / "map.ply", outcome.map, outcome.colours);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
+  if (outcome.colours.any()) write_colours(out / kColourFile, outcome.colours);
   if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
       !truth.empty())
     io::write_trajectory(out / kTruthFile, truth);

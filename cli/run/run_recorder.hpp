@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The observer that writes down a run: a record of each frame, pictures for the report, warnings.
+// The observer that writes down a run: a record of each frame, pictures for the report, the colours
+// of features, warnings.
 #pragma once
 
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "cli/results/frame_record.hpp"
 #include "cli/results/frame_view.hpp"
+#include "cli/results/map_colours.hpp"
 #include "sslam/system/observer.hpp"
 
 namespace sslam::cli {
@@ -25,9 +27,13 @@ class RunRecorder : public Observer {
       outcome.views.push_back(encode_frame_view(frame_view(event, row, camera_), event.frame));
     outcome.frames.push_back({event.report, event.input.label});
   }
+  void keyframe_made(const FrameEvent& event) override {
+    colours.note(event.frame.frame, event.input.picture, camera_);
+  }
   void warning(const std::string& line) override { outcome.warnings.push_back(line); }
 
   RunOutcome outcome;
+  FeatureColours colours;
 
  private:
   const Camera<double>& camera_;

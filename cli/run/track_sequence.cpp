@@ -24,6 +24,7 @@ void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, 
   outcome.wall_seconds = wall.total() * 1e-3;
   outcome.interrupted = Interrupt::asked();
   outcome.map = system.map();
+  outcome.colours = recorder.colours.of(outcome.map);
   outcome.world = system.world();
   outcome.apart = system.apart();
   outcome.keyframes_not_made = system.keyframes_not_made();

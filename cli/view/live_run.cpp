@@ -14,16 +14,21 @@
 namespace sslam::cli {
 namespace {
 
-Map<double> landmarks_of(const Map<double>& map) {
+// The landmarks that are alive, and their colours.
+Map<double> landmarks_of(const Map<double>& map, const MapColours& colours, MapColours& seen_colours) {
   Map<double> seen;
-  for (const auto& point : map.points) {
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const auto& point = map.points[i];
     if (!point.alive) continue;
+    seen_colours.points.push_back(colour_at(colours.points, i));
     auto& copy = seen.points.emplace_back();
     copy.position = point.position;
     copy.plane = point.plane;
   }
-  for (const auto& line : map.lines) {
+  for (std::size_t i = 0; i < map.lines.size(); ++i) {
+    const auto& line = map.lines[i];
     if (!line.alive) continue;
+    seen_colours.lines.push_back(colour_at(colours.lines, i));
     auto& copy = seen.lines.emplace_back();
     copy.start = line.start;
     copy.end = line.end;
@@ -37,8 +42,8 @@ Map<double> landmarks_of(const Map<double>& map) {
 }  // namespace
 
 LiveRun::LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total,
-                 const Camera<double>& camera)
-    : camera_(camera), total_(total) {
+                 const Camera<double>& camera, const FeatureColours& colours)
+    : camera_(camera), colours_(colours), total_(total) {
   run_.name = std::move(name);
   run_.metrics["settings"] = std::move(settings);
   run_.frames.columns = frame_columns();
@@ -52,7 +57,7 @@ void LiveRun::frame_tracked(const FrameEvent& event) {
     if (!std::exchange(wanted_, false)) return;
   }
   Handover fresh;
-  fresh.map = landmarks_of(event.map);
+  fresh.map = landmarks_of(event.map, colours_.of(event.map), fresh.colours);
   for (const auto& entry : event.trajectory.entries())
     fresh.trajectory.push_back({entry.stamp, TrajectoryLog<double>::pose(event.map, entry).inverse()});
   fresh.keyframes = keyframe_poses(event.map);
@@ -75,6 +80,7 @@ void LiveRun::take_over() {
   }
   for (const FrameRecord& frame : taken.frames) run_.frames.add_row(frame_cells(frame));
   run_.map = std::move(taken.map);
+  run_.colours = std::move(taken.colours);
   run_.trajectory = std::move(taken.trajectory);
   run_.keyframes = std::move(taken.keyframes);
   view_ = std::move(taken.view);

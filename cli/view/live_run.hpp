@@ -17,8 +17,10 @@ namespace sslam::cli {
 
 class LiveRun : public Observer {
  public:
-  // settings: as metrics.json has them; total: frames of the run; camera: of the images.
-  LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total, const Camera<double>& camera);
+  // settings: as metrics.json has them; total: frames of the run; camera: of the images; colours: what the
+  // tracker's thread has noted so far, read in that thread alone.
+  LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total, const Camera<double>& camera,
+          const FeatureColours& colours);
 
   // The tracker's: notes the frame, and hands the map over if somebody has asked since the last time. Waits
   // for nobody but for the moment in which another thread takes what was handed over.
@@ -36,6 +38,7 @@ class LiveRun : public Observer {
   struct Handover {
     std::vector<FrameRecord> frames;  // since the last one was taken
     Map<double> map;                  // landmarks alone
+    MapColours colours;               // of its landmarks
     io::Trajectory trajectory, keyframes;
     std::string view;
     std::uint64_t version = 0;
@@ -44,6 +47,7 @@ class LiveRun : public Observer {
   [[nodiscard]] nlohmann::ordered_json data();
 
   Camera<double> camera_;
+  const FeatureColours& colours_;
   std::vector<FrameRecord> unseen_;  // the tracker's own
   std::size_t rows_ = 0;             // and that, frames so far
   std::mutex handing_;               // for what follows

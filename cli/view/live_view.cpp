@@ -9,9 +9,9 @@
 
 namespace sslam::cli {
 
-LiveView::LiveView(const RunContext& context)
+LiveView::LiveView(const RunContext& context, const FeatureColours& colours)
     : run_(folder_name(context.settings.out), settings_json(context), context.dataset.frames.size(),
-           context.working_camera),
+           context.working_camera, colours),
       server_(context.settings.port, {[this] { return run_.page(); },
                                       [this](std::uint64_t version) { return run_.news(version); }}) {
   print_note("look at the run at " + server_.address());

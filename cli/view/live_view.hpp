@@ -13,7 +13,7 @@ namespace sslam::cli {
 class LiveView {
  public:
   // Says where to look. Throws Error when the port cannot be had.
-  explicit LiveView(const RunContext& context);
+  LiveView(const RunContext& context, const FeatureColours& colours);
 
   [[nodiscard]] Observer& observer() noexcept { return run_; }
 

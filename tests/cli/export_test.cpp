@@ -2,6 +2,8 @@
 // `sslam export`: what it writes, read back by the rules of the programs that it is for.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -67,6 +69,116 @@ TEST_CASE("export writes a COLMAP model whose points project to its features") {
   std::sort(errors.begin(), errors.end());
   CHECK(errors[errors.size() / 2] < 1);
   CHECK(errors[errors.size() * 9 / 10] < 3);
+}
+
+TEST_CASE("export gives COLMAP points their colours, and the same model in binary form") {
+  const RoomCopy& room = tracked_room();
+  const fs::path out = room.scratch.path() / "coloured";
+  REQUIRE(export_run(room.out, "--format colmap --out " + out.string()).code == 0);
+  std::size_t grey = 0, all = 0;
+  for (const std::string& line : lines_of(out / "points3D.txt")) {
+    const auto numbers = numbers_of(line);
+    ++all;
+    grey += numbers.at(4) == 128 && numbers.at(5) == 128 && numbers.at(6) == 128 ? 1U : 0U;
+  }
+  CHECK(grey * 20 < all);
+  const auto number_at = [](const std::string& bytes, std::size_t at, auto value) {
+    REQUIRE(bytes.size() >= at + sizeof value);
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  const ColmapModel model = read_model(out);
+  const std::string cameras = text_of(out / "cameras.bin"), images = text_of(out / "images.bin"),
+                    points = text_of(out / "points3D.bin");
+  CHECK(cameras.size() == 8 + 4 + 4 + 8 + 8 + 4 * 8);
+  CHECK(number_at(cameras, 12, std::int32_t{}) == 1);  // PINHOLE
+  CHECK(number_at(cameras, 16, std::uint64_t{}) == 480);
+  CHECK(number_at(cameras, 48, double{}) == Approx(240));
+  CHECK(number_at(images, 0, std::uint64_t{}) == model.images.size());
+  std::size_t size = 8;
+  for (const auto& [id, image] : model.images) {
+    CHECK(number_at(images, size, std::uint32_t{}) == static_cast<std::uint32_t>(id));
+    CHECK(number_at(images, size + 36, double{}) == Approx(image.tx).margin(1e-11));
+    CHECK(images.compare(size + 64, image.name.size() + 1, image.name.c_str(), image.name.size() + 1) == 0);
+    size += 64 + image.name.size() + 1 + 8 + 24 * image.points.size();
+  }
+  CHECK(images.size() == size);
+  CHECK(number_at(points, 0, std::uint64_t{}) == model.points.size());
+  size = 8;
+  for (const auto& [id, point] : model.points) {
+    CHECK(number_at(points, size, std::uint64_t{}) == static_cast<std::uint64_t>(id));
+    CHECK(number_at(points, size + 16, double{}) == Approx(point.y).margin(1e-6));
+    CHECK(number_at(points, size + 43, std::uint64_t{}) == point.track.size());
+    size += 8 + 24 + 3 + 8 + 8 + 8 * point.track.size();
+  }
+  CHECK(points.size() == size);
+}
+
+TEST_CASE("export gives the camera of the images, also where they were shrunk to be worked on") {
+  const RoomCopy copy;
+  const Outcome run = copy.run("--longest-side 320");
+  INFO(run.text);
+  REQUIRE(run.code == 0);
+  REQUIRE(export_run(copy.out, "--format colmap").code == 0);
+  const auto settings = copy.metrics()["settings"];
+  REQUIRE(settings["working_size"][0] == 320);
+  const ColmapModel model = read_model(copy.out / "colmap");
+  REQUIRE(model.cameras.size() == 1);
+  CHECK(model.cameras.begin()->second[0] == Approx(settings["pinhole"][0].get<double>()));
+  CHECK(model.cameras.begin()->second[2] == Approx(240));
+  CHECK(numbers_of(lines_of(copy.out / "colmap/cameras.txt")[0].substr(10)).at(0) == 480);
+  std::vector<double> errors;
+  double right = 0;
+  for (const auto& [id, point] : model.points)
+    for (const auto& [image, feature] : point.track) {
+      errors.push_back(reprojection_error(model, model.images.at(image), point, feature));
+      right = std::max(right, model.images.at(image).points.at(feature).x);
+    }
+  REQUIRE(errors.size() > 100);
+  std::sort(errors.begin(), errors.end());
+  CHECK(errors[errors.size() / 2] < 1.5);
+  CHECK(right > 400);
+}
+
+TEST_CASE("export writes what nerfstudio reads: the images' camera, poses with y up and z back, points") {
+  const RoomCopy& room = tracked_room();
+  const fs::path out = room.scratch.path() / "nerf";
+  const Outcome outcome = export_run(room.out, "--format nerfstudio --out " + out.string());
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::json::parse(text_of(out / "transforms.json"));
+  CHECK(json["camera_model"] == "OPENCV");
+  CHECK(json["w"] == 480);
+  CHECK(json["cx"].get<double>() == Approx(240));
+  REQUIRE(json["frames"].size() == room.metrics()["keyframes"].get<std::size_t>());
+  // The same points land on the same pixels as in COLMAP's model.
+  REQUIRE(export_run(room.out, "--format colmap --out " + (out / "colmap").string()).code == 0);
+  const ColmapModel model = read_model(out / "colmap");
+  for (const auto& frame : json["frames"]) {
+    const fs::path file = out / frame["file_path"].get<std::string>();
+    CHECK(fs::exists(file));
+    Eigen::Matrix4d world_from_gl;
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c) world_from_gl(r, c) = frame["transform_matrix"][r][c].get<double>();
+    CHECK(world_from_gl.topLeftCorner<3, 3>().determinant() == Approx(1));
+    const auto image = std::find_if(model.images.begin(), model.images.end(),
+                                    [&](const auto& entry) { return entry.second.name == file.filename(); });
+    REQUIRE(image != model.images.end());
+    const Eigen::Matrix4d gl_from_world = world_from_gl.inverse();
+    std::size_t seen = 0;
+    for (const auto& [id, point] : model.points)
+      for (const auto& [image_id, feature] : point.track) {
+        if (image_id != image->first) continue;
+        const Eigen::Vector4d x = gl_from_world * Eigen::Vector4d(point.x, point.z, -point.y, 1);
+        CHECK(x.z() < 0);
+        const double u = json["fl_x"].get<double>() * x.x() / -x.z() + json["cx"].get<double>();
+        const double v = json["cy"].get<double>() - json["fl_y"].get<double>() * x.y() / -x.z();
+        const auto& at = image->second.points.at(feature);
+        seen += std::hypot(u - at.x, v - at.y) < 5 ? 1U : 0U;
+      }
+    CHECK(seen > 20);
+  }
+  CHECK(text_of(out / "points.ply").find("element vertex ") != std::string::npos);
 }
 
 TEST_CASE("export writes trajectories as TUM's and KITTI's tools read them") {
@@ -147,7 +259,7 @@ TEST_CASE("export refuses what it cannot use with one line") {
                   "nowhere: no such folder; expected the one that");
   require_refused(export_run(copy.folder, "--format tum"), "holds no run that can be read");
   REQUIRE(copy.run("--end 2").code == 1);
-  for (const char* format : {"tum", "kitti", "ply", "colmap"})
+  for (const char* format : {"tum", "kitti", "ply", "colmap", "nerfstudio"})
     require_refused(export_run(copy.out, std::string("--format ") + format), "out: the run tracked no frame");
   REQUIRE(copy.run().code == 0);
   write(scratch / "file", "not a folder");
@@ -159,5 +271,5 @@ TEST_CASE("export refuses what it cannot use with one line") {
   require_refused(export_run(copy.out, "--format kitti"), "trajectory.txt: is missing");
   const Outcome unknown = export_run(copy.out, "--format bundler");
   REQUIRE(unknown.code == 2);
-  REQUIRE(unknown.text.find("sslam: error: --format: bundler not in {colmap,kitti,ply,tum}") == 0);
+  REQUIRE(unknown.text.find("sslam: error: --format: bundler not in {colmap,kitti,nerfstudio,ply,tum}") == 0);
 }

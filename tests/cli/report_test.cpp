@@ -74,6 +74,9 @@ TEST_CASE("a run leaves a report, and its files give the same report again") {
   CHECK(data["problems"].empty());
   CHECK(data["metrics"]["settings"]["dataset"] == room.folder.string());
   CHECK(data.contains("errors"));
+  CHECK(data["coloured"] == true);
+  CHECK(data["point_colours"]["base64"].get<std::string>().size() > 1000);
+  const std::string colours = text_of(room.run / "colours.bin");
   CHECK(first.find("</script><b>") == std::string::npos);
   const Outcome again = room.report();
   INFO(again.text);
@@ -88,6 +91,7 @@ TEST_CASE("a run leaves a report, and its files give the same report again") {
   CHECK_FALSE(fs::exists(room.run / "report.html"));
   CHECK_FALSE(fs::exists(room.run / "views.bin"));
   CHECK(text_of(room.run / "trajectory.txt") == trajectory);
+  CHECK(text_of(room.run / "colours.bin") == colours);
   CHECK(room.report().code == 0);
   CHECK(room.views() == 0);
 }
@@ -110,17 +114,23 @@ TEST_CASE("a report of damaged files names each of them and shows the others") {
   };
   cut("frames.csv", 0.5);
   cut("views.bin", 0.5);
-  cut("map.sslam", 0.5);
+  cut("colours.bin", 0.5);
   cut("trajectory.txt", 0.98);
   fs::remove(room.run / "keyframes.txt");
   const Outcome outcome = room.report();
   INFO(outcome.text);
   CHECK(outcome.code == 0);
-  for (const char* problem : {"frames.csv: line ", "views.bin: is cut off after ", "map.sslam: holds ",
-                              "trajectory.txt: line ", "keyframes.txt: is missing"})
+  for (const char* problem :
+       {"frames.csv: line ", "views.bin: is cut off after ", "colours.bin: ends too early",
+        "trajectory.txt: line ", "keyframes.txt: is missing"})
     CHECK(outcome.text.find(problem) != std::string::npos);
   CHECK(room.data()["problems"].size() >= 5);
   CHECK(room.views() > 10);
+  CHECK(room.data()["coloured"] == false);
+  cut("map.sslam", 0.5);
+  const Outcome mapless = room.report();
+  CHECK(mapless.code == 0);
+  CHECK(mapless.text.find("map.sslam: holds ") != std::string::npos);
   // Numbers that are none, and members of other kinds than they should be.
   write(room.run / "metrics.json", R"({"tracked": "all", "trajectory": 7, "settings": {"dataset": []}})");
   CHECK(room.report().code == 0);

@@ -55,7 +55,7 @@ TEST_CASE("a COLMAP model has what is alive, and its points project to its featu
   const ScratchFolder scratch;
   const std::vector<std::string> names{"a.png", "b.png", "c.png"};
   const Map<double> map = small_map();
-  const io::ColmapCounts counts = io::write_colmap_model(scratch.path(), map, names);
+  const io::ColmapCounts counts = io::write_colmap_model(scratch.path(), map, {names});
   CHECK(counts.cameras == 2);
   CHECK(counts.images == 2);
   CHECK(counts.points == 2);

@@ -16,17 +16,19 @@
 
 namespace sslam::io {
 
-using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
+using Colour = std::array<std::uint8_t, 3>;        // red, green, blue
+inline constexpr Colour kNoColour{128, 128, 128};  // of what was seen in no image
 
 struct MapPoint {
   Vec3<double> position;  // world, metres up to the map's scale
-  Colour colour{90, 90, 90};
+  Colour colour = kNoColour;
 };
 
 struct MapLine {
   Vec3<double> start;
   Vec3<double> end;
-  Colour colour{200, 60, 30};
+  Colour colour{200, 60, 30};     // of the edge
+  Colour end_colour = kNoColour;  // of its two vertices
 };
 
 struct MapFace {
@@ -56,8 +58,8 @@ inline void write_map(const std::filesystem::path& path, std::span<const MapPoin
   };
   for (const MapPoint& point : points) write_vertex(point.position, point.colour);
   for (const MapLine& line : lines) {
-    write_vertex(line.start, line.colour);
-    write_vertex(line.end, line.colour);
+    write_vertex(line.start, line.end_colour);
+    write_vertex(line.end, line.end_colour);
   }
   for (const MapFace& face : faces)
     for (const Vec3<double>& corner : face.corners) write_vertex(corner, face.colour);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run as nerfstudio's dataset: transforms.json with the camera and the keyframes' poses, and points.ply.
+// Its cameras look along -z with y up, its world has z up, and pixels count from the corner of the first one.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/results/keyframe_images.hpp"
+#include "cli/results/run_folder.hpp"
+#include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/files/text.hpp"
+#include "sslam/io/maps/map_writer.hpp"
+
+namespace sslam::cli {
+
+struct NerfstudioCounts {
+  std::size_t images = 0;
+  std::size_t missing = 0;    // of them, those whose file is not where the run has found it
+  std::size_t strangers = 0;  // keyframes of an earlier run: left out
+  std::size_t points = 0;
+};
+
+namespace nerfstudio_detail {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// The files of the run's images by their names; empty where the dataset has gone, or is a video.
+inline std::map<std::string, fs::path> image_files(const std::string& dataset) {
+  std::map<std::string, fs::path> files;
+  try {
+    const io::Dataset found = io::open_dataset(dataset);
+    if (found.layout == io::Layout::kVideo) return files;
+    for (const io::FrameEntry& frame : found.frames)
+      files[fs::path(frame.image).filename().string()] = frame.image;
+  } catch (const Error&) {  // the poses are of use without the images
+  }
+  return files;
+}
+
+inline Vec3<double> z_up(const Vec3<double>& x) {
+  return {x.x(), x.z(), -x.y()};
+}
+
+inline Json matrix_of(const SE3<double>& world_from_cam) {
+  const Mat3<double> axes = world_from_cam.rotation.matrix();
+  const Vec3<double> columns[] = {z_up(axes.col(0)), z_up(-axes.col(1)), z_up(-axes.col(2)),
+                                  z_up(world_from_cam.translation)};
+  Json rows = Json::array();
+  for (int r = 0; r < 3; ++r) rows.push_back({columns[0][r], columns[1][r], columns[2][r], columns[3][r]});
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+// Throws Error when the settings do not tell the camera.
+inline Json camera_of(const RunFolder& run) {
+  try {
+    const Json& settings = run.metrics.at("settings");
+    const auto pinhole = settings.at("pinhole").get<std::array<double, 4>>();
+    const auto lens = settings.at("distortion").get<std::array<double, 5>>();
+    const auto size = settings.at("image_size").get<std::array<int, 2>>();
+    return {{"camera_model", "OPENCV"},
+            {"fl_x", pinhole[0]},
+            {"fl_y", pinhole[1]},
+            {"cx", pinhole[2] + 0.5},
+            {"cy", pinhole[3] + 0.5},
+            {"w", size[0]},
+            {"h", size[1]},
+            {"k1", lens[0]},
+            {"k2", lens[1]},
+            {"k3", lens[4]},
+            {"p1", lens[2]},
+            {"p2", lens[3]},
+            {"ply_file_path", "points.ply"}};
+  } catch (const nlohmann::json::exception&) {
+    throw Error(
+        "metrics.json: does not tell the camera of the run (settings: pinhole, distortion, image_size)");
+  }
+}
+
+}  // namespace nerfstudio_detail
+
+// Into `stage`, from where the files are brought to `out`: images are named as seen from there. Throws Error.
+inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesystem::path& stage,
+                                         const std::filesystem::path& out) {
+  namespace detail = nerfstudio_detail;
+  NerfstudioCounts counts;
+  detail::Json json = detail::camera_of(run);
+  const KeyframeImages images = keyframe_images(run);
+  const auto settings = run.metrics.at("settings");
+  const auto files = detail::image_files(settings.value("dataset", std::string()));
+  json["frames"] = detail::Json::array();
+  for (const auto& keyframe : run.map.keyframes) {
+    if (!keyframe.alive()) continue;
+    const std::size_t id = Map<double>::index(keyframe.id);
+    if (!images.known[id]) {
+      ++counts.strangers;
+      continue;
+    }
+    const auto file = files.find(images.names[id]);
+    ++counts.images;
+    std::error_code error;
+    std::filesystem::path path;
+    if (file != files.end())
+      path = std::filesystem::relative(std::filesystem::absolute(file->second),
+                                       std::filesystem::absolute(out), error);
+    if (path.empty()) {
+      path = std::filesystem::path("images") / images.names[id];
+      ++counts.missing;
+    }
+    json["frames"].push_back({{"file_path", path.generic_string()},
+                              {"transform_matrix", detail::matrix_of(keyframe.cam_from_world.inverse())}});
+  }
+  io::write_text(stage / "transforms.json", json.dump(1) + "\n");
+  std::vector<io::MapPoint> points;
+  for (std::size_t i = 0; i < run.map.points.size(); ++i)
+    if (run.map.points[i].alive)
+      points.push_back({detail::z_up(run.map.points[i].position),
+                        colour_at(run.colours.points, i).value_or(io::kNoColour)});
+  io::write_map(stage / "points.ply", points, {});
+  counts.points = points.size();
+  return counts;
+}
+
+}  // namespace sslam::cli
