@@ -96,8 +96,8 @@ function showTools(view) {
     measure.setAttribute("aria-pressed", "false");
     tools.append(measure);
   }
-  tools.append(button("Save PNG", "Save this picture", () => savePicture(view)));
-  if (run.frames.count > 0) tools.append(button("Save CSV", "Save the frames with their poses and errors", saveCsv), button("Link", "Put the shown frame into this page's address, and copy that", linkToFrame));
+  tools.append(button("PNG", "Save this picture as PNG", () => savePicture(view)));
+  if (run.frames.count > 0) tools.append(button("CSV", "Save the frames with their poses and errors as CSV", saveCsv), button("Link", "Put the shown frame into this page's address, and copy that", linkToFrame));
   if (document.fullscreenEnabled)
     tools.append(button("Full screen", "Full screen, or back", () => (document.fullscreenElement ? document.exitFullscreen() : document.querySelector(".stage").requestFullscreen())));
 }

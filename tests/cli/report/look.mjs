@@ -80,6 +80,73 @@ async function useTracked(page) {
   await page.screenshot(picture("dark"));
 }
 
+// Where on the canvas something of a kind lies, by the page's own picking.
+function placeOf(page, kind) {
+  return page.run(`(() => {
+    const box = byId('canvas').getBoundingClientRect();
+    for (let y = 4; y < Math.min(box.height, innerHeight - box.y - 90); y += 3)
+      for (let x = 420; x < box.width; x += 3) if (picker.at(x, y)?.kind === '${kind}') return [box.x + x, box.y + y];
+    return null;
+  })()`);
+}
+
+async function click(page, at) { await page.drag(at, at); }
+
+// Colours, picking, measuring, saving, and the frame of the address.
+async function useMap(page) {
+  // The page has opened in the middle of the frames with a pose, and shows what it has seen in its colours.
+  assert.ok(await page.run("run.hasPose(shown.row) && shown.row > 20 && shown.row < 50"));
+  assert.ok(await page.run("run.coloured && new Set(run.point_colours).size > 50"));
+  const grey = "Array.from(run.point_colours).filter((value, i, all) => value === 128 && all[i - i % 3] === 128).length / run.point_colours.length";
+  assert.ok(await page.run(`${grey} < 0.1`));
+  if (!(await page.run("typeof THREE !== 'undefined'"))) return;
+  await page.until("[...view3d.layers.pictures.children].filter((mesh) => mesh.visible).length > 3 && view3d.eyePicture.visible");
+  const seen = await page.run("Array.from(view3d.layers.points.geometry.attributes.color.array.slice(0, 30)).join()");
+  await page.run("(() => { const select = document.querySelectorAll('#tools select')[0]; select.value = 'axes'; select.dispatchEvent(new Event('change')); })()");
+  assert.notEqual(await page.run("Array.from(view3d.layers.points.geometry.attributes.color.array.slice(0, 30)).join()"), seen);
+  await page.run("(() => { const size = byId('point-size'); size.value = 6; size.dispatchEvent(new Event('input')); })()");
+  assert.equal(await page.run("view3d.materials.points.size"), 6);
+  const state = await page.run("Array.from(view3d.layers.path.geometry.attributes.instanceColorStart.data.array).join()");
+  await page.run("view3d.setPathColours('error')");
+  assert.notEqual(await page.run("Array.from(view3d.layers.path.geometry.attributes.instanceColorStart.data.array).join()"), state);
+  // A click tells what lies there.
+  for (const [kind, words] of [["point", /^Point \d+.*seen by \d+ keyframes/s], ["line", /^Line \d+.*long, along/s], ["keyframe", /^Keyframe \d+.*sees \d+ points/s]]) {
+    const at = await placeOf(page, kind);
+    assert.ok(at, `no ${kind} in view`);
+    await click(page, at);
+    assert.match(await page.run("byId('picked').innerText"), words);
+  }
+  assert.ok(await page.run("run.pointWitnesses.counts.every((count, i) => count >= run.pointWitnesses.keyframesOf(i).length)"));
+  await page.screenshot(picture("picked"));
+  // Twice the same place is no distance; two places are.
+  await page.run("byId('measure').click()");
+  const point = await placeOf(page, "point"), line = await placeOf(page, "line");
+  for (const at of [point, point]) await click(page, at);
+  assert.match(await page.run("byId('picked').innerText"), /\n0 m/);
+  for (const at of [point, line]) await click(page, at);
+  assert.match(await page.run("byId('picked').innerText"), /\n[0-9.]+ m/);
+  assert.doesNotMatch(await page.run("byId('picked').innerText"), /\n0 m/);
+  await page.run("byId('measure').click()");
+  assert.equal(await page.run("byId('picked').hidden"), true);
+}
+
+// What the page hands out, without the browser's dialogue.
+async function useFiles(page) {
+  const csv = (await page.run("framesAsCsv()")).trim().split("\n");
+  assert.equal(csv.length, 61);
+  assert.match(csv[0], /^index,stamp,image,state.*,qw,position_error_m,rotation_error_deg$/);
+  assert.ok(csv.every((line) => line.split(",").length === csv[0].split(",").length));
+  const svg = await page.run(`new Promise((resolve) => {
+    const offer = offerFile;
+    offerFile = async (name, blob) => { offerFile = offer; resolve(name + " " + await blob.text()); };
+    document.querySelector(".chart .save").click();
+  })`);
+  assert.match(svg, /^position_error\.svg <svg .*<path d="M.*<text .*<\/svg>\n$/s);
+  await page.run("shown.set(17); linkToFrame()");
+  assert.match(await page.run("location.hash"), /^#frame=17$/);
+  assert.equal(await page.run("shown.set(3), firstRow()"), 17);
+}
+
 // Images without anything in them, for which the camera is lost.
 async function blindFrames(page) {
   const jpeg = await page.run(`(() => {
@@ -107,11 +174,19 @@ async function main() {
   const browser = new Browser(kSoftwareGl);
   try {
     await look(browser, run, {}, async (page) => {
+      await useMap(page);
+      await useFiles(page);
+    });
+    await look(browser, run, {}, async (page) => {
       await useTracked(page);
       await blindFrames(page);
     });
     call(0, "run", room, "--quiet", "--normals", "none", "--out", lost);
-    await look(browser, run, { size: { width: 390, height: 844 } }, async (page) => { await page.screenshot(picture("phone")); });
+    await look(browser, run, { size: { width: 390, height: 844 } }, async (page) => {
+      await page.screenshot(picture("phone"));
+      // The time bar stands between its neighbours and covers neither.
+      assert.ok(await page.run("(() => { const box = (s) => document.querySelector(s).getBoundingClientRect(); return box('.stage-row').bottom <= box('.timeline').top && box('.timeline').bottom <= byId('story').parentElement.getBoundingClientRect().top; })()"));
+    });
     await look(browser, lost, {}, async (page) => {
       assert.match(await page.run("byId('story').textContent"), /Lost for \d+ frames? \(frames 40 to .*too few matches/);
       await page.run("shown.set(42)");
