@@ -174,10 +174,12 @@ class Scene3D {
     image.src = URL.createObjectURL(blob);
   }
 
-  // The picture of the shown frame, when it is there.
+  // The picture of the shown frame, when it is there: a copy, since the element goes on to the next one before it is drawn.
   showPicture(image) {
+    const copy = element("canvas", { width: image.naturalWidth, height: image.naturalHeight });
+    copy.getContext("2d").drawImage(image, 0, 0);
     this.eyePicture.material.map?.dispose();
-    this.eyePicture.material.map = this.textureOf(image);
+    this.eyePicture.material.map = this.textureOf(copy);
     this.eyePicture.material.needsUpdate = true;
     this.eyePicture.visible = this.layers.pictures.visible;
     this.request();
