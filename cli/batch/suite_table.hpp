@@ -3,7 +3,7 @@
 // asked for is one.
 #pragma once
 
-#include <toml++/toml.h>
+#include "cli/shell/toml_parser.hpp"
 
 #include <cmath>
 #include <cstdint>

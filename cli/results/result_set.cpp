@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -56,7 +57,8 @@ void bring_to_names(const fs::path& folder) {
 std::string checksum_text(const fs::path& file) {
   char text[20];
   std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(io::checksum(io::read_text(file))));
+                static_cast<unsigned long long>(
+                    io::checksum(io::read_text(file, std::numeric_limits<std::size_t>::max()))));
   return text;
 }
 

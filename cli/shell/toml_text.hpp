@@ -53,9 +53,7 @@ namespace toml_detail {
 // many parts that a table for each would overflow the stack; lists within lists are left to the parser.
 [[nodiscard]] inline std::string read_toml_text(const std::filesystem::path& path) {
   constexpr std::size_t kLongest = 16 << 20, kMostDots = 16;
-  std::string text = io::read_text(path);
-  if (text.size() > kLongest)
-    throw Error(path.string() + ": is longer than 16 MB; expected a list of settings");
+  std::string text = io::read_text(path, kLongest);
   if (toml_detail::most_dots(text) > kMostDots)
     throw Error(path.string() + ": a key has more than " + std::to_string(kMostDots + 1) +
                 " parts with dots between them; expected few");

@@ -2,7 +2,7 @@
 // Lists of poses and tables.
 #include "fuzz/fuzz_input.hpp"
 #include "sslam/io/files/csv_reader.hpp"
-#include "sslam/io/trajectories/trajectory.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sslam;

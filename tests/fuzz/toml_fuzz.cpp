@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Suites: what is let through to the parser must not overflow its stack.
-#include <toml++/toml.h>
+#include "cli/shell/toml_parser.hpp"
 
 #include "cli/shell/toml_text.hpp"
 #include "fuzz/fuzz_input.hpp"

@@ -77,3 +77,12 @@ TEST_CASE("Wildcards") {
   CHECK(io::matches_wildcards("", "*"));
   CHECK_FALSE(io::matches_wildcards("", "?"));
 }
+
+TEST_CASE("A file without an end is refused") {
+  CHECK(sslam::testing::error_of([] { (void)io::read_text("/dev/zero", 1 << 20); }) ==
+        "/dev/zero: is longer than 1048576 bytes, or has no end");
+  const sslam::testing::ScratchFolder scratch;
+  const auto file = scratch.write("a.txt", std::string(100'000, 'a'));
+  CHECK(io::read_text(file, 100'000).size() == 100'000);
+  CHECK_THROWS_AS(io::read_text(file, 99'999), Error);
+}

@@ -208,3 +208,8 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
   refused([](auto& m) { m.keyframes[3].neighbours.at(0).keyframe = 4; });  // which is gone
   refused([](auto& m) { m = {}; });
 }
+
+TEST_CASE("A map file without an end is refused at its first bytes") {
+  CHECK(sslam::testing::error_of([] { (void)sslam::io::load_map("/dev/zero"); }).find("is no map") !=
+        std::string::npos);
+}

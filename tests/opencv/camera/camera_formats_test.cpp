@@ -68,6 +68,26 @@ TEST_CASE("OpenCV's FileStorage, as YAML and as XML") {
       kWritten, kWrittenLens, 640, 480);
 }
 
+TEST_CASE("XML that is nested too deep is refused before it is parsed") {
+  std::string open, close;
+  for (int i = 0; i < 200'000; ++i) {
+    open += "<a>";
+    close += "</a>";
+  }
+  const std::string head = "<?xml version=\"1.0\"?>\n";
+  check_refused(head + "<opencv_storage>" + open + close + "</opencv_storage>", "nested too deep");
+  check_refused(head + open, "nested too deep");
+  const std::string flat = "<a b='>'><!-- <c><c> --><d e=\"/>\"/><d><e/></d></a>";
+  CHECK(detail::xml_depth(head + flat) == 2);
+  std::string hidden;  // closing tags that are none
+  for (int i = 0; i < 50; ++i) hidden += "<a b='</a>'><!-- </a> -->";
+  CHECK(detail::xml_depth(head + hidden) == 50);
+}
+
+TEST_CASE("A key in quotes that spans lines gives a message of one line") {
+  check_refused("\"one\ntwo\": pu\n", "one");
+}
+
 TEST_CASE("ROS camera_info: the calibrator's file, and messages of ROS 1 and 2") {
   check_camera_values(
       read_written(

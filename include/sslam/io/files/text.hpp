@@ -16,17 +16,34 @@
 
 namespace sslam::io {
 
-// The whole file. Throws Error when it cannot be read.
-[[nodiscard]] inline std::string read_text(const std::filesystem::path& path) {
+// Longer than any list or table of a real recording.
+inline constexpr std::size_t kLongestText = std::size_t{1} << 30;
+
+// What is left of an open file. Throws Error when it has more than `most` bytes: a device or a pipe may have
+// no end.
+[[nodiscard]] inline std::string read_rest(std::istream& file, const std::filesystem::path& path,
+                                           std::size_t most) {
+  std::string text;
+  for (std::vector<char> block(std::size_t{1} << 16); file;) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > most)
+      throw Error(path.string() + ": is longer than " + std::to_string(most) + " bytes, or has no end");
+  }
+  if (file.bad()) throw Error(path.string() + ": cannot read");
+  return text;
+}
+
+// The whole file. Throws Error when it cannot be read, or has more than `most` bytes.
+[[nodiscard]] inline std::string read_text(const std::filesystem::path& path,
+                                           std::size_t most = kLongestText) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw Error(path.string() + ": is a folder, expected a file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string() + ": cannot open: " + std::strerror(errno != 0 ? errno : ENOENT));
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) throw Error(path.string() + ": cannot read");
-  return text;
+  return read_rest(file, path, most);
 }
 
 // Cells separated by blanks, tabs and commas, as the TUM tools split them, or by semicolons: a comma is then

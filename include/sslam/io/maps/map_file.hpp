@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "sslam/io/files/output_file.hpp"
+#include "sslam/io/files/text.hpp"
 #include "sslam/io/maps/checksum.hpp"
 #include "sslam/io/maps/map_check.hpp"
 #include "sslam/io/maps/map_fields.hpp"
@@ -56,11 +56,14 @@ inline void save_map(const std::filesystem::path& path, const Map<double>& map) 
   namespace detail = map_file_detail;
   std::ifstream in(path, std::ios::binary);
   if (!in || std::filesystem::is_directory(path)) throw Error(path.string() + ": cannot read this map");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!std::string_view(bytes).starts_with(detail::kMagic))
+  std::string magic(detail::kMagic.size(), '\0');
+  in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+  if (magic != detail::kMagic)
     throw Error(path.string() + ": is no map; expected a map.sslam that `sslam run` has written");
+  constexpr std::size_t kLargest = std::size_t{1} << 36;  // more than a map in memory can have
+  const std::string bytes = read_rest(in, path, kLargest);
   try {
-    ByteReader head{std::string_view(bytes).substr(detail::kMagic.size())};
+    ByteReader head{bytes};
     detail::Header header;
     header.fields(head);
     if (header.version != detail::kVersion)

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 #include <string>
+#include <string_view>
 
 #include "sslam/core/error.hpp"
 #include "sslam/opencv/camera/camera_rows.hpp"
@@ -36,6 +37,31 @@ namespace detail {
   return text;
 }
 
+// How deep the elements of an XML file are nested: its parser recurses, without a limit of its own. Comments
+// and what stands in quotes within a tag are no elements.
+[[nodiscard]] inline int xml_depth(std::string_view xml) {
+  int depth = 0, deepest = 0;
+  for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
+    if (xml.substr(at).starts_with("<!--")) {
+      at = std::min(xml.find("-->", at), xml.size());
+      continue;
+    }
+    const char kind = at + 1 < xml.size() ? xml[at + 1] : '\0';
+    char quote = '\0';
+    for (++at; at < xml.size() && (quote != '\0' || xml[at] != '>'); ++at) {
+      if (quote == xml[at])
+        quote = '\0';
+      else if (quote == '\0' && (xml[at] == '"' || xml[at] == '\''))
+        quote = xml[at];
+    }
+    if (kind == '/')
+      --depth;
+    else if (kind != '?' && kind != '!' && xml[at - 1] != '/')
+      deepest = std::max(deepest, ++depth);
+  }
+  return deepest;
+}
+
 // OpenCV's XML, as its calibration samples write it.
 [[nodiscard]] inline TextNode tree_of(const cv::FileNode& node) {
   TextNode made;
@@ -51,6 +77,8 @@ namespace detail {
 }
 
 [[nodiscard]] inline TextNode parse_xml(const std::string& text, const std::string& file) {
+  constexpr int kDeepest = 40;
+  if (xml_depth(text) > kDeepest) throw Error(file + ": is nested too deep for a calibration");
   try {
     const cv::FileStorage storage(
         text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
@@ -68,10 +96,16 @@ namespace detail {
 [[nodiscard]] inline CameraFile read_camera_file(const std::filesystem::path& path) {
   const std::string text = detail::read_camera_text(path), file = path.string();
   const auto first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && text[first] == '<')
-    return detail::read_camera_tree(detail::parse_xml(text, file), file);
-  if (auto rows = detail::read_camera_rows(text, file)) return *rows;
-  return detail::read_camera_tree(TextTree::parse(text, file), file);
+  try {
+    if (first != std::string::npos && text[first] == '<')
+      return detail::read_camera_tree(detail::parse_xml(text, file), file);
+    if (auto rows = detail::read_camera_rows(text, file)) return *rows;
+    return detail::read_camera_tree(TextTree::parse(text, file), file);
+  } catch (const Error& error) {
+    std::string line = error.what();  // keys and values in quotes may span lines
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    throw Error(line);
+  }
 }
 
 }  // namespace sslam
