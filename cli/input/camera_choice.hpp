@@ -57,6 +57,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
 
 // The camera file that lies in the dataset, or beside the video; empty: none.
 [[nodiscard]] inline std::filesystem::path own_camera_file(const io::Dataset& dataset) {
+  if (!dataset.camera_file.empty()) return dataset.camera_file;
   std::error_code ignored;
   const bool folder = std::filesystem::is_directory(dataset.root, ignored);
   const std::filesystem::path place = folder ? dataset.root : dataset.root.parent_path();
@@ -70,7 +71,8 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
 [[nodiscard]] inline std::optional<CameraChoice> find_camera(const std::string& wanted,
                                                              const io::Dataset& dataset) {
   const auto known = io::known_camera_for(dataset);
-  const auto complete = [&known](CameraChoice choice) {
+  const auto complete = [&](CameraChoice choice) {
+    if (choice.depth_factor == 0) choice.depth_factor = dataset.depth_factor;
     if (choice.depth_factor == 0 && known) choice.depth_factor = known->depth_factor;
     return choice;
   };

@@ -305,7 +305,7 @@ TEST_CASE("What is no dataset is told what was looked for") {
   const std::string empty = error_opening(scratch.path());
   CHECK(contains(
       empty,
-      "the folder is empty; looked for rgb.txt (TUM RGB-D), frame-NNNNNN.color.png (7-Scenes), rgb/N.png"));
+      "the folder is empty; looked for rgb.txt (TUM RGB-D), frame-NNNNNN.color.png (7-Scenes), mav0/"));
   scratch.write("notes.txt");
   CHECK(contains(error_opening(scratch.path()), "no dataset here; looked for"));
   CHECK(contains(error_opening(scratch.path() / "notes.txt"), "neither a folder nor a video"));

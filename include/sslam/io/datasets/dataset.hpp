@@ -20,7 +20,18 @@
 
 namespace sslam::io {
 
-enum class Layout { kTum, kIclNuim, kSevenScenes, kImages, kVideo };
+enum class Layout {
+  kTum,
+  kEuroc,
+  kKitti,
+  kReplica,
+  kScanNet,
+  kSevenScenes,
+  kIclNuim,
+  kColourDepth,
+  kImages,
+  kVideo
+};
 
 // Small: a long recording has many, and all of them are at hand as long as it runs. A std::filesystem::path
 // would keep its parts beside its text.
@@ -40,6 +51,8 @@ struct Dataset {
   std::string truth_problem;          // why the ground truth that lies there is not used
   std::optional<double> video_start;  // time of a video's first frame on its own clock; empty: it has none
   double seconds_per_stamp = 1;       // ICL-NUIM stamps count frames
+  std::filesystem::path camera_file;  // that the layout keeps at a place of its own; empty: none
+  double depth_factor = 0;            // units of its depth images a metre, by the layout; 0: not known
   std::string name_hint;              // text that may name the recording, for the built-in calibrations
   Warnings warnings;
 

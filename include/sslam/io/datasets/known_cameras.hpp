@@ -94,8 +94,7 @@ struct KnownCamera {
       return find_known_camera("7scenes");
     case Layout::kTum:
       break;
-    case Layout::kImages:
-    case Layout::kVideo:
+    default:
       return std::nullopt;
   }
   std::error_code ignored;

@@ -7,9 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "sslam/io/datasets/colour_depth.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/euroc.hpp"
 #include "sslam/io/datasets/icl_nuim.hpp"
 #include "sslam/io/datasets/image_folder.hpp"
+#include "sslam/io/datasets/nearest_layout.hpp"
+#include "sslam/io/datasets/numbered_poses.hpp"
 #include "sslam/io/datasets/seven_scenes.hpp"
 #include "sslam/io/datasets/tum.hpp"
 #include "sslam/io/datasets/video.hpp"
@@ -32,13 +36,27 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 4> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 9> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_seven_scenes(root); }},
+    {Layout::kEuroc, "EuRoC, TUM-VI", "mav0/cam0/data.csv", is_euroc,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_euroc(root); }},
+    {Layout::kKitti, "KITTI odometry", "image_0/NNNNNN.png", is_kitti,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_kitti(root); }},
+    {Layout::kReplica, "Replica", "results/frameNNNNNN.jpg", is_replica,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_replica(root); }},
+    {Layout::kScanNet, "ScanNet", "color/N.jpg with pose/ and intrinsic/", is_scannet,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_scannet(root, options.frame_rate);
+     }},
     {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", has_numbered_images,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_icl_nuim(root); }},
+    {Layout::kColourDepth, "colour and depth folders", "color/ with depth/", is_colour_depth,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_colour_depth(root, options.frame_rate);
+     }},
     {Layout::kImages, "folder of images", "*.png, *.jpg, ...", is_image_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_image_folder(root, options.frame_rate);
@@ -77,8 +95,9 @@ inline constexpr std::array<FolderLayout, 4> kFolderLayouts{{
     if (known.matches(path)) return known.read(path, options);
   }
   const bool empty = std::filesystem::is_empty(path, ignored);
-  throw Error(path.string() + (empty ? ": the folder is empty" : ": no dataset here") + "; looked for " +
-              describe_folder_layouts());
+  const std::string nearest = nearest_layout(path);
+  throw Error(path.string() + (empty ? ": the folder is empty" : ": no dataset here") +
+              (nearest.empty() ? "" : "; " + nearest) + "; looked for " + describe_folder_layouts());
 }
 
 }  // namespace sslam::io

@@ -86,6 +86,12 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list,
   dataset.layout = Layout::kTum;
   dataset.root = root;
   dataset.name_hint = leading_comments(read_plain_text(list));
+  // ETH3D SLAM: the same layout with `fx fy cx cy` beside it and TUM's depth factor.
+  if (const auto calibration = root / "calibration.txt";
+      std::filesystem::is_regular_file(calibration, ignored)) {
+    dataset.camera_file = calibration;
+    dataset.depth_factor = 5000;
+  }
   std::vector<StampedFile> partners;
   std::vector<StampedFile> files =
       read_file_list(list, root, dataset.warnings, own_list ? nullptr : &partners);

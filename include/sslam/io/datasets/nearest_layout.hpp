@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which layout a folder that is in none of them comes nearest to, and what it lacks.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sslam::io {
+
+struct LayoutMarks {
+  std::string_view name;
+  std::array<std::string_view, 4> marks;  // files and folders of the layout besides the images
+  std::string_view images;                // without which it cannot be read
+};
+
+inline constexpr std::array<LayoutMarks, 6> kLayoutMarks{{
+    {"TUM RGB-D", {"groundtruth.txt", "depth.txt", "accelerometer.txt", "rgb"}, "rgb.txt"},
+    {"EuRoC", {"mav0", "mav0/cam0", "cam0", "sensor.yaml"}, "mav0/cam0/data.csv"},
+    {"KITTI odometry", {"times.txt", "calib.txt", "image_1", "image_3"}, "image_0/000000.png"},
+    {"Replica", {"traj.txt", "results", "", ""}, "results/frame000000.jpg"},
+    {"ScanNet", {"pose", "intrinsic", "color", ""}, "color/0.jpg"},
+    {"colour and depth folders", {"depth", "intrinsic.json", "camera_intrinsic.json", ""}, "color/N.png"},
+}};
+
+// "looks like EuRoC: mav0/cam0/data.csv is missing"; empty where nothing of any layout is there.
+[[nodiscard]] inline std::string nearest_layout(const std::filesystem::path& root) {
+  const LayoutMarks* nearest = nullptr;
+  int most = 0;
+  for (const LayoutMarks& layout : kLayoutMarks) {
+    int present = 0;
+    for (const std::string_view mark : layout.marks) {
+      std::error_code ignored;
+      present += !mark.empty() && std::filesystem::exists(root / mark, ignored) ? 1 : 0;
+    }
+    if (present <= most) continue;
+    most = present;
+    nearest = &layout;
+  }
+  if (nearest == nullptr) return {};
+  return "looks like " + std::string(nearest->name) + ": " + std::string(nearest->images) + " is missing";
+}
+
+}  // namespace sslam::io
