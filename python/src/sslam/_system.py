@@ -1,0 +1,290 @@
+"""The system: images in, poses and a map out."""
+
+from __future__ import annotations
+
+import importlib.resources
+import os
+import warnings
+from typing import Any, Callable, Dict, List, Mapping, Optional, TypeVar, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _check, _sslam
+from ._errors import SettingsError, SslamWarning
+from ._sslam import Camera, Result
+from ._types import Floats, Latest, Lines, Parameter, Planes, Preset, Trajectory
+
+Path = Union[str, "os.PathLike[str]"]
+NormalsCallback = Callable[[NDArray[np.uint8]], Optional[NDArray[Any]]]
+Callback = TypeVar("Callback", bound=Callable[[Any], Any])
+
+EVENTS = ("frame_tracked", "keyframe_made", "loop_closed", "maps_joined", "map_changed", "warning")
+
+
+def shipped_network() -> Optional[str]:
+    """The normal network that comes with sslam; None where it is not installed."""
+    models = importlib.resources.files("sslam") / "models"
+    manifest, model = models / "planar_normals.json", models / "planar_normals.onnx"
+    return str(manifest) if manifest.is_file() and model.is_file() else None
+
+
+def presets() -> List[Preset]:
+    return [Preset(*values) for values in _sslam.presets()]
+
+
+def parameters(preset: str = "structure") -> List[Parameter]:
+    """Every parameter of a preset, with its default."""
+    return [Parameter(*values) for values in _sslam.preset_parameters(preset)]
+
+
+def as_camera(name: str, camera: Union[Camera, Path]) -> Camera:
+    if isinstance(camera, Camera):
+        return camera
+    if not isinstance(camera, (str, bytes, os.PathLike)):
+        raise TypeError(f"{name}: expected an sslam.Camera or the path of a camera file, not {type(camera).__name__}")
+    return Camera.from_file(_check.path(name, camera))
+
+
+def _parameter_values(given: Optional[Mapping[str, float]], words: Dict[str, float]) -> Dict[str, float]:
+    for name in words:
+        if "__" not in name:
+            raise TypeError(f"System: no argument {name}; parameters of stages have '__' for each dot of their names")
+    if given is not None and not isinstance(given, Mapping):
+        raise TypeError(f"parameters: expected a dict of numbers, not {type(given).__name__}")
+    values = dict(given or {})
+    values.update({name.replace("__", "."): value for name, value in words.items()})
+    return {str(name): _check.real(str(name), value) for name, value in values.items()}
+
+
+class System:
+    """Tracks a camera and builds a map.
+
+    camera: an sslam.Camera, or the path of a camera file.
+    preset: one of sslam.presets().
+    normals: where surface normals come from: "onnx" (the network that comes with sslam), "onnx:FILE" (another one),
+        "depth" (registered depth images), "files:DIR", "none" (lines alone), or a function that is called with each
+        image as track() gets it and answers with normals as track(normals=...) takes them, or with None. By default
+        the shipped network where it is installed and the preset has a use for it.
+    parameters: values that differ from their defaults, by the names of sslam.parameters(), in their units; or
+        as keywords with two underscores for each dot: keyframes__max_turn=10.
+    colours: order of the channels of images with three or four: "bgr" (as OpenCV reads them, no copy), or "rgb".
+    live: mapping and loop closing have a thread of their own, and tracking never waits for them; no two runs are
+        alike. Otherwise the same images give the same numbers, bit for bit.
+    seed: of everything random.
+    longest_side: images with a longer side are shrunk to it, pixels; 0: none is.
+    final_pass: finish() adjusts the whole map and tracks every frame again in it; 100 kB of memory a frame.
+    depth_factor: value of one metre in a uint16 depth image.
+    normals_sigma_deg: of normals that track() or a function gives: what those of one plane get wrong together, degrees.
+
+    Methods may be called from any thread: they take turns. Callbacks are called in the thread that calls track(), after
+    the frame is done and with nothing held: they may call the system.
+    """
+
+    def __init__(
+        self,
+        camera: Union[Camera, Path],
+        preset: str = "structure",
+        normals: Union[None, str, NormalsCallback] = None,
+        *,
+        parameters: Optional[Mapping[str, float]] = None,
+        colours: str = "bgr",
+        live: bool = False,
+        seed: int = 1,
+        longest_side: int = 960,
+        final_pass: bool = True,
+        depth_factor: float = 5000.0,
+        normals_sigma_deg: float = 5.0,
+        **words: float,
+    ) -> None:
+        values = _parameter_values(parameters, words)
+        if not isinstance(preset, str):
+            raise TypeError(f"preset: expected its name, not {type(preset).__name__}")
+        if colours not in ("bgr", "rgb"):
+            raise ValueError(f"colours: {colours!r} is not known; use 'bgr' or 'rgb'")
+        sigma = _check.real("normals_sigma_deg", normals_sigma_deg)
+        if not 0 <= sigma < 90:
+            raise ValueError(f"normals_sigma_deg: {sigma:g} is out of range: 0 to 90")
+        self._rgb = colours == "rgb"
+        self._callbacks: Dict[str, List[Callable[[Any], Any]]] = {event: [] for event in EVENTS}
+        self._normals_of: Optional[NormalsCallback] = None
+        self._tracking = _sslam.Tracking(
+            as_camera("camera", camera),
+            preset,
+            self._source_of(normals, preset),
+            values,
+            _check.whole("seed", seed, 0, 2**64 - 1),
+            bool(live),
+            _check.whole("longest_side", longest_side, 0),
+            bool(final_pass),
+            _check.positive("depth_factor", depth_factor),
+            sigma,
+        )
+
+    def _source_of(self, normals: Union[None, str, NormalsCallback], preset: str) -> str:
+        if callable(normals):
+            self._normals_of = normals
+            return "none"
+        if normals is not None and not isinstance(normals, str):
+            raise TypeError(f"normals: expected a str, a function or None, not {type(normals).__name__}")
+        if normals not in (None, "onnx"):
+            return str(normals)
+        wanted = normals is not None or any(p.uses_normals for p in presets() if p.name == preset)
+        shipped = shipped_network()
+        if wanted and shipped is not None:
+            return "onnx:" + shipped
+        if normals is not None:
+            raise SettingsError("normals: the network that comes with sslam is not installed; name one with onnx:FILE")
+        if wanted:
+            self._warn("the normal network that comes with sslam is not installed: the axes come from lines alone", 4)
+        return "none"
+
+    def track(
+        self,
+        image: NDArray[np.uint8],
+        stamp: float,
+        depth: Optional[NDArray[Any]] = None,
+        mask: Optional[NDArray[np.uint8]] = None,
+        *,
+        normals: Optional[NDArray[Any]] = None,
+        name: str = "",
+    ) -> Result:
+        """Tracks the next image.
+
+        image: uint8, (H, W), (H, W, 3) or (H, W, 4), of the camera's size.
+        stamp: seconds; later than that of the frame before.
+        depth: registered to the image, (H, W): uint16 in depth_factor, or float32 in metres; 0: unknown. It serves
+            normals="depth" alone.
+        mask: uint8 or bool, (H, W); 0: nothing is looked for there.
+        normals: float, (h, w, 3) or (h, w, 4), in the shape of the image but of any size: unit vectors in the camera
+            frame (x right, y down, z forward) that point towards the camera, zero where there is none; the fourth
+            channel is the probability of lying on a plane.
+        name: of the image file, without folder and extension: finds the normals of "files:DIR".
+
+        Pixels are read in place, without a copy, where those of a row stand one after the other; they must not change
+        during the call. Raises TypeError for a wrong dtype, ValueError for a wrong shape or stamp, FinishedError after
+        finish(), and what a callback raises; then the frame counts as tracked.
+        """
+        pixels = _check.pixels("image", image, (np.uint8,), (1, 3, 4))
+        when = _check.real("stamp", stamp)
+        if not isinstance(name, str):
+            raise TypeError(f"name: expected a str, not {type(name).__name__}")
+        if depth is not None:
+            depth = _check.pixels("depth", depth, (np.uint16, np.float32), (1,))
+            if depth.shape != pixels.shape[:2]:
+                raise ValueError(f"depth: has shape {depth.shape}; expected that of the image, {pixels.shape[:2]}")
+        if mask is not None:
+            mask = _check.pixels("mask", mask, (np.uint8, np.bool_), (1,)).view(np.uint8)
+            if mask.shape != pixels.shape[:2]:
+                raise ValueError(f"mask: has shape {mask.shape}; expected that of the image, {pixels.shape[:2]}")
+        if normals is None and self._normals_of is not None:
+            normals = self._normals_of(image)
+        if normals is not None:
+            normals = self._normals_array(normals, pixels)
+        result = self._tracking.track(pixels, when, depth, mask, normals, name, self._rgb)
+        self._tell(result)
+        return result
+
+    @staticmethod
+    def _normals_array(normals: Any, image: NDArray[Any]) -> NDArray[Any]:
+        if isinstance(normals, np.ndarray) and normals.dtype in (np.float16, np.float64):
+            normals = normals.astype(np.float32)
+        found = _check.pixels("normals", normals, (np.float32,), (3, 4))
+        shape = (found.shape[1] / image.shape[1]) / (found.shape[0] / image.shape[0])
+        if abs(shape - 1) > 0.02:
+            raise ValueError(f"normals: have shape {found.shape}; expected the shape of the image, {image.shape[:2]}")
+        return found
+
+    def _tell(self, result: Result) -> None:
+        told = self._callbacks
+        for line in result.warnings:
+            if not told["warning"]:
+                self._warn(line, 4)
+            for callback in tuple(told["warning"]):
+                callback(line)
+        happened = (True, result.keyframe, result.loop_closed, result.maps_joined, result.map_changed)
+        for event, yes in zip(EVENTS, happened):
+            if yes:
+                for callback in tuple(told[event]):
+                    callback(result)
+
+    @staticmethod
+    def _warn(line: str, level: int) -> None:
+        warnings.warn(line, SslamWarning, stacklevel=level)
+
+    def on(self, event: str, callback: Callback) -> Callback:
+        """Has callback(result) called after each frame with this event, of those in sslam.EVENTS; at "warning" it is
+        callback(line), and without any a warning is given to Python's `warnings`."""
+        self._of_event(event)
+        if not callable(callback):
+            raise TypeError(f"callback: expected a function, not {type(callback).__name__}")
+        self._callbacks[event].append(callback)
+        return callback
+
+    def off(self, event: str, callback: Callable[[Any], Any]) -> None:
+        """Undoes on(event, callback)."""
+        if callback not in self._of_event(event):
+            raise ValueError(f"callback: {callback!r} is not called at {event}")
+        self._callbacks[event].remove(callback)
+
+    def _of_event(self, event: str) -> List[Callable[[Any], Any]]:
+        if event not in self._callbacks:
+            raise ValueError(f"event: {event!r} is not known; use one of {', '.join(EVENTS)}")
+        return self._callbacks[event]
+
+    def finish(self) -> bool:
+        """No more images: takes in what mapping has still to do. True if that closed a loop. A second call does
+        nothing."""
+        return self._tracking.finish()
+
+    def points(self) -> Floats:
+        """The points of the map, (N, 3), world."""
+        return self._tracking.points()
+
+    def lines(self) -> Lines:
+        return Lines(*self._tracking.lines())
+
+    def planes(self) -> Planes:
+        return Planes(*self._tracking.planes())
+
+    def keyframes(self) -> Trajectory:
+        """In the order in which they were made."""
+        return Trajectory(*self._tracking.keyframes())
+
+    def trajectory(self) -> Trajectory:
+        """One pose for each frame that has one in the map, by the map as it is now."""
+        return Trajectory(*self._tracking.trajectory())
+
+    def latest(self) -> Latest:
+        """Where the camera was last: never waits for a frame that is being tracked."""
+        return Latest(*self._tracking.latest())
+
+    def save(self, path: Path) -> None:
+        """The map as a file."""
+        self._tracking.save(_check.path("path", path))
+
+    def load(self, path: Path) -> None:
+        """Goes on in the map of a file: frames are lost until one is recognised in it."""
+        self._tracking.load(_check.path("path", path))
+
+    def save_trajectory(self, path: Path) -> None:
+        """trajectory() in the format of TUM, digit for digit as `sslam run` writes it."""
+        self._tracking.save_trajectory(_check.path("path", path))
+
+    def localise_only(self, on: bool = True) -> None:
+        """True: no keyframe is made and no map begun: the camera is looked for in the map as it is."""
+        self._tracking.localise_only(bool(on))
+
+    def parameters(self) -> List[Parameter]:
+        """Every parameter with the value that is in use."""
+        return [Parameter(*values) for values in self._tracking.parameters()]
+
+    @property
+    def camera(self) -> Camera:
+        """Of the images that track() takes."""
+        return self._tracking.camera
+
+    @property
+    def frames(self) -> int:
+        """Tracked so far."""
+        return self._tracking.frames

@@ -1,0 +1,162 @@
+"""What the package answers with, as named tuples of numpy arrays. All arrays are copies: they stay as they are when
+the system goes on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._sslam import State, Status
+
+Floats = NDArray[np.float64]
+
+
+class Trajectory(NamedTuple):
+    """Poses by increasing stamp."""
+
+    stamps: Floats
+    """(N,), seconds"""
+    poses: Floats
+    """(N, 4, 4), camera to world"""
+
+    @property
+    def positions(self) -> Floats:
+        """(N, 3), of the camera in the world"""
+        return self.poses[:, :3, 3]
+
+
+class Lines(NamedTuple):
+    ends: Floats
+    """(N, 2, 3), both ends of what was seen of each line, world"""
+    axis: NDArray[np.int8]
+    """(N,), number of the Manhattan axis that each follows; -1: none"""
+
+
+class Planes(NamedTuple):
+    normals: Floats
+    """(N, 3), unit, world: the plane holds the points X with normal . X = distance"""
+    distances: Floats
+    """(N,)"""
+    corners: Floats
+    """(N, 4, 3), of the rectangle that is covered with points and lines, in order around it, world"""
+    axis: NDArray[np.int8]
+    """(N,), number of the Manhattan axis that each is normal to; -1: none"""
+
+
+class Latest(NamedTuple):
+    """Where the camera was last."""
+
+    stamp: float
+    """seconds"""
+    state: State
+    pose: Optional[Floats]
+    """(4, 4), camera to world; None: there is none"""
+    world: int
+    """that the pose is in: poses of different worlds have nothing in common"""
+
+
+class Parameter(NamedTuple):
+    name: str
+    value: float
+    """in the unit"""
+    unit: str
+    """share, count, pixels, degrees, seconds; empty: a ratio or a factor"""
+    least: float
+    most: float
+    """infinite where there is no upper end"""
+    meaning: str
+
+
+class Preset(NamedTuple):
+    name: str
+    meaning: str
+    uses_normals: bool
+    can_be_live: bool
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Of a dataset."""
+
+    image: NDArray[np.uint8]
+    """(H, W, 3), blue, green, red, as System.track takes it"""
+    stamp: float
+    """seconds; in the layout of ICL-NUIM the number of the frame"""
+    depth: Optional[NDArray[Any]]
+    """(H, W), uint16 in the dataset's unit (Dataset.depth_factor) or float32 in metres; None: there is none"""
+    name: str
+    """of the image file, without folder and extension"""
+    index: int
+    """position in the whole recording"""
+    pose: Optional[Floats]
+    """(4, 4), camera to world, true; None: not known"""
+
+
+class ManhattanRotation(NamedTuple):
+    status: Status
+    rotation: Floats
+    """(3, 3), the axes of the room in the camera frame as columns; to be used where status is OK"""
+    covariance: Floats
+    """(3, 3), rad^2, of the left perturbation in the camera frame"""
+    axes_seen: int
+    """with support, 0 to 3"""
+    deviation: float
+    """radians: standard deviation of the worst rotation that was observed, by the votes alone"""
+    ambiguity: float
+    """without a prior: likelihood of the second best frame as a share of the best; 0: there is none"""
+    axis_of: NDArray[np.int8]
+    """(M,), axis 0, 1 or 2 that each segment follows; -1: none"""
+
+
+class RelativePose(NamedTuple):
+    status: Status
+    pose: Floats
+    """(4, 4), camera 0 to camera 1, its translation of length 1; to be used where status is OK"""
+    rotation_covariance: Floats
+    """(3, 3), rad^2, of the left perturbation"""
+    translation_covariance: Floats
+    """(3, 3), rad^2, of rank 2"""
+    parallax: float
+    """radians, median of the inliers"""
+    inliers: NDArray[np.bool_]
+    """(N,)"""
+
+
+class Translation(NamedTuple):
+    status: Status
+    translation: Floats
+    """(3,), of length 1: x1 ~ R x0 + translation / depth0; to be used where status is OK"""
+    covariance: Floats
+    """(3, 3), rad^2, of rank 2"""
+    parallax: float
+    """radians, median of the inliers"""
+    inliers: NDArray[np.bool_]
+    """(N,)"""
+
+
+class Points(NamedTuple):
+    status: NDArray[np.uint8]
+    """(N,), values of sslam.Status: points[status == sslam.Status.OK] are those to be used"""
+    points: Floats
+    """(N, 3), world"""
+    covariance: Floats
+    """(N, 3, 3)"""
+    parallax: Floats
+    """(N,), radians: largest angle between two of the rays"""
+    max_error: Floats
+    """(N,), largest reprojection error of a view, standard deviations"""
+
+
+class RefinedPose(NamedTuple):
+    status: Status
+    pose: Floats
+    """(4, 4), camera to world; as it was given unless status is OK"""
+    information: Floats
+    """(6, 6), inverse covariance of the left perturbation of world to camera, rotation first"""
+    point_inliers: NDArray[np.bool_]
+    """(N,)"""
+    line_inliers: NDArray[np.bool_]
+    """(M,)"""

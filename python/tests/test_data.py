@@ -1,0 +1,122 @@
+"""Datasets, trajectories and evaluation give the command line's numbers."""
+
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+import sslam
+from room import ROOM, frames, needs_room, run
+
+
+def circle(count=50, scale=1.0):
+    angles = np.linspace(0, 2, count)
+    poses = np.tile(np.eye(4), (count, 1, 1))
+    poses[:, 0, 3], poses[:, 2, 3] = scale * np.cos(angles), scale * np.sin(angles)
+    return sslam.Trajectory(angles, poses)
+
+
+class Trajectories(unittest.TestCase):
+    def test_what_is_written_is_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "circle.txt"
+            sslam.write_trajectory(path, circle())
+            read = sslam.read_trajectory(path)
+            np.testing.assert_array_equal(read.stamps, circle().stamps)
+            np.testing.assert_allclose(read.poses, circle().poses, atol=1e-9)
+            with self.assertRaisesRegex(sslam.Error, "nowhere"):
+                sslam.read_trajectory(pathlib.Path(folder) / "nowhere.txt")
+
+    def test_evaluation_finds_scale_and_errors(self):
+        found = sslam.evaluate(circle(), circle(scale=0.5))
+        self.assertAlmostEqual(found.scale, 2)
+        self.assertLess(found.position.rmse, 1e-9)
+        self.assertEqual(found.position_errors.shape, (50,))
+        self.assertEqual(found.pairs, 50)
+        self.assertGreater(sslam.evaluate(circle(), circle(scale=0.5), align="se3").position.rmse, 0.1)
+
+    def test_trajectories_that_are_none_are_refused_by_their_name(self):
+        good = circle()
+        for bad, kind, name in (
+            (5, TypeError, "estimate:"),
+            ((good.stamps, good.poses[:3]), ValueError, "estimate:"),
+            ((good.stamps, good.poses[:, :3]), ValueError, "estimate.poses:"),
+            ((good.stamps * np.nan, good.poses), ValueError, "estimate.stamps:"),
+            ((good.stamps[::-1], good.poses), ValueError, "estimate.stamps:"),
+            ((good.stamps, good.poses * 2), ValueError, "estimate[0]:"),
+        ):
+            with self.assertRaises(kind) as caught:
+                sslam.evaluate(good, bad)
+            self.assertTrue(str(caught.exception).startswith(name), str(caught.exception))
+        with self.assertRaisesRegex(sslam.Error, "no overlap"):
+            sslam.evaluate(good, (good.stamps + 100, good.poses))
+        with self.assertRaisesRegex(ValueError, "^align: "):
+            sslam.evaluate(good, good, align="sim2")
+
+
+@needs_room
+class Datasets(unittest.TestCase):
+    def test_a_dataset_lists_its_frames(self):
+        dataset = sslam.open_dataset(ROOM, start=2, end=12, stride=3)
+        self.assertEqual(len(dataset), 4)
+        self.assertEqual(dataset.layout, "TUM RGB-D")
+        listed = list(dataset)
+        self.assertEqual([f.index for f in listed], [2, 5, 8, 11])
+        np.testing.assert_array_equal([f.stamp for f in listed], dataset.stamps)
+        self.assertEqual(listed[0].image.shape, (240, 320, 3))
+        self.assertEqual(listed[0].image.dtype, np.uint8)
+        self.assertEqual((dataset.camera.width, dataset.camera.height), (320, 240))
+        np.testing.assert_allclose(dataset.ground_truth.poses[2], listed[0].pose)
+        self.assertEqual([f.name for f in dataset], [f.name for f in listed])
+
+    def test_an_image_that_cannot_be_read_is_left_out_with_a_warning(self):
+        with tempfile.TemporaryDirectory() as folder:
+            images = pathlib.Path(folder) / "images"
+            images.mkdir()
+            for path in sorted((ROOM / "rgb").iterdir())[:4]:
+                shutil.copy(path, images)
+            second = sorted(images.iterdir())[1]
+            second.write_bytes(second.read_bytes()[:500])
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                dataset = sslam.open_dataset(images)
+                self.assertEqual(len(list(dataset)), 3)
+            self.assertTrue(all(issubclass(w.category, sslam.SslamWarning) for w in told))
+            text = [str(w.message) for w in told]
+            self.assertTrue(any("ASSUMING a field of view" in t for t in text), text)
+            self.assertTrue(any(second.name in t and "skipped" in t for t in text), text)
+
+    def test_what_is_no_dataset_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(sslam.Error, "the folder is empty"):
+                sslam.open_dataset(folder)
+        with self.assertRaisesRegex(sslam.Error, "no such file"):
+            sslam.open_dataset("/nowhere")
+        with self.assertRaisesRegex(ValueError, "^stride: "):
+            sslam.open_dataset(ROOM, stride=0)
+        with self.assertRaisesRegex(sslam.Error, "no frame from"):
+            sslam.open_dataset(ROOM, start=1000)
+
+    def test_figures_are_those_of_the_command_line(self):
+        truth = ROOM / "groundtruth.txt"
+        with tempfile.TemporaryDirectory() as folder:
+            estimate, figures = pathlib.Path(folder) / "estimate.txt", pathlib.Path(folder) / "figures.json"
+            poses = sslam.read_trajectory(truth)
+            noisy = poses.poses.copy()
+            noisy[:, :3, 3] += np.random.default_rng(1).normal(0, 0.01, (len(noisy), 3))
+            sslam.write_trajectory(estimate, sslam.Trajectory(poses.stamps, noisy))
+            run("eval", truth, estimate, "--json", figures)
+            expected = json.loads(figures.read_text())
+            for source in (truth, ROOM, sslam.open_dataset(ROOM)):
+                found = sslam.evaluate(source, estimate)
+                self.assertGreater(found.position.rmse, 0.005)
+                self.assertAlmostEqual(found.position.rmse, expected["ate_m"]["rmse"], 12)
+                self.assertEqual(found.frames, len(frames()))
+
+
+if __name__ == "__main__":
+    unittest.main()
