@@ -163,7 +163,7 @@ class System:
 
         Pixels are read in place, without a copy, where those of a row stand one after the other; they must not change
         during the call. Raises TypeError for a wrong dtype, ValueError for a wrong shape or stamp, FinishedError after
-        finish(), and what a callback raises; then the frame counts as tracked.
+        finish(), and what a callback raises: the frame counts as tracked then, but for a function of normals.
         """
         pixels = _check.pixels("image", image, (np.uint8,), (1, 3, 4))
         when = _check.real("stamp", stamp)
