@@ -114,10 +114,13 @@ void add_merge_command(CLI::App& batch) {
   CLI::App* merge = batch.add_subcommand("merge", "Tables of all shards of a batch together");
   auto options = std::make_shared<MergeOptions>();
   merge->add_option("FOLDERS", options->folders, "the shards' folders")->required()->type_name("DIR");
-  merge->add_option("--out", options->out, "folder for the tables")->capture_default_str()->type_name("DIR");
+  merge->add_option("-o,--out", options->out, "folder for the tables")
+      ->capture_default_str()
+      ->type_name("DIR");
   merge
       ->add_option("--against", options->against,
                    "folder of an earlier batch to compare with; may be repeated")
+      ->allow_extra_args(false)
       ->type_name("DIR");
   merge->callback([options] { run_merge(*options); });
 }
@@ -132,7 +135,7 @@ void add_batch_command(CLI::App& app) {
       batch->add_option("SUITE", options->suite, "TOML file, see docs/batch.md")->type_name("FILE");
   batch
       ->add_option(
-          "--out", options->out,
+          "-o,--out", options->out,
           "folder for the results; default as the suite says, else SUITE_results. Runs that are done "
           "there by the same settings are kept")
       ->type_name("DIR");
@@ -145,6 +148,7 @@ void add_batch_command(CLI::App& app) {
   batch
       ->add_option("--against", options->against,
                    "folder of an earlier batch to compare with; may be repeated")
+      ->allow_extra_args(false)
       ->type_name("DIR");
   batch->add_flag("--list", options->list, "check the suite, print the folder of each run, and stop");
   batch->add_flag_callback(

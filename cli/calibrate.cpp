@@ -154,7 +154,7 @@ void add_calibrate_command(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   add_board_options(*command, s->board);
-  command->add_option("--out", s->out, "camera file; NAME_coverage.png goes beside it")
+  command->add_option("-o,--out", s->out, "camera file; NAME_coverage.png goes beside it")
       ->capture_default_str()
       ->type_name("FILE");
   command

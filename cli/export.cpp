@@ -136,7 +136,8 @@ void add_export_command(CLI::App& app) {
                    "with their points; nerfstudio: transforms.json and points")
       ->required()
       ->check(CLI::IsMember({"colmap", "kitti", "nerfstudio", "ply", "tum"}));
-  command->add_option("--out", s->out, "Folder for the files; default one of the format's name in the run's")
+  command
+      ->add_option("-o,--out", s->out, "Folder for the files; default one of the format's name in the run's")
       ->type_name("DIR");
   command->callback([s] { run_export(*s); });
 }

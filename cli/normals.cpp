@@ -176,7 +176,7 @@ void add_normals_command(CLI::App& app) {
                    "ONNX file with its manifest (.json) beside it; default the network that comes with sslam")
       ->type_name("FILE");
   add_camera_options(*command, s->camera.file, s->camera.focal, s->camera.fov);
-  command->add_option("--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
+  command->add_option("-o,--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
       ->capture_default_str()
       ->type_name("DIR");
   add_progress_options(*command, s->verbosity, false);

@@ -6,22 +6,29 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cli/batch/child.hpp"
 #include "cli/commands.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/exit_code.hpp"
+#include "cli/shell/help_formatter.hpp"
 #include "cli/shell/man_page.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/core/closest_word.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/version.hpp"
 
@@ -32,10 +39,75 @@ constexpr const char* kFooter =
     "Exit codes: 0 success; 1 bad input, unwritable output or no result; 2 wrong command line; "
     "130 interrupted, with what had been computed written.";
 
+// What is typed and what comes of it, for --help.
+struct Example {
+  const char* command;
+  const char* lines;
+};
+constexpr Example kExamples[] = {
+    {"", "  sslam demo\n  sslam run DATASET --out results\n  sslam help run\n"},
+    {"run",
+     "  sslam run room --out results\n  sslam run walk.mp4 --camera phone.yaml\n"
+     "  sslam run 0 --live --view --record walk\n  ffmpeg -i X -f image2pipe -c:v mjpeg - | sslam run - "
+     "--fov 70\n"
+     "  sslam run room --preset paper --set keyframes.max_turn=10\n"},
+    {"eval", "  sslam eval groundtruth.txt trajectory.txt\n  sslam eval room results --plot compared.svg\n"},
+    {"normals", "  sslam normals photo.jpg --out normals\n"},
+    {"report", "  sslam report results\n"},
+    {"view", "  sslam view results\n  sslam view results/map.sslam\n"},
+    {"export", "  sslam export results --format colmap --out model\n"},
+    {"batch", "  sslam batch suite.toml --jobs 4\n"},
+    {"calibrate", "  sslam calibrate photos --size 9x6 --out camera.yaml\n"},
+    {"fetch", "  sslam fetch --help\n"},
+    {"synth", "  sslam synth room --frames 120\n"},
+    {"demo", "  sslam demo\n"},
+};
+
+std::string footer_of(std::string_view command) {
+  for (const Example& example : kExamples)
+    if (command == example.command) return std::string("Examples:\n") + example.lines + "\n" + kFooter;
+  return kFooter;
+}
+
+// The deepest command that has been named.
+const CLI::App& named_command(const CLI::App& app) {
+  const std::vector<CLI::App*> named = app.get_subcommands();
+  return named.empty() ? app : named_command(*named.front());
+}
+
+// A word that nobody knows, with the nearest one that somebody does; empty: there is none.
+std::string unknown_word(const CLI::App& app) {
+  const CLI::App& command = named_command(app);
+  const std::vector<std::string> left = app.remaining(true);
+  const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
+  const auto option = std::find_if(left.begin(), left.end(), is_option);
+  const std::string full = &command == &app ? "sslam" : "sslam " + command.get_name();
+  const auto meant = [](const std::string& word, const std::vector<std::string>& known) {
+    const std::string nearest = closest_word(word, known);
+    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  };
+  std::vector<std::string> known;
+  if (option != left.end()) {
+    const std::string word = option->substr(0, option->find('='));
+    for (const CLI::Option* o : command.get_options()) {
+      for (const std::string& name : o->get_lnames()) known.push_back("--" + name);
+      for (const std::string& name : o->get_snames()) known.push_back("-" + name);
+    }
+    return "'" + word + "' is not an option of " + full + meant(word, known);
+  }
+  if (left.empty()) return {};
+  for (const CLI::App* sub : command.get_subcommands(nullptr)) known.push_back(sub->get_name());
+  if (&command == &app) return "'" + left.front() + "' is not a command" + suggestion(left.front(), known);
+  return "'" + left.front() + "' is one word too many for " + full + meant(left.front(), known);
+}
+
 // CLI11 prints help and version by itself; everything else becomes our one line.
 int report_parse_result(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
   std::string text = error.what();
+  const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (missing || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    if (const std::string unknown = unknown_word(app); !unknown.empty()) text = unknown;
   for (char& c : text) {
     if (c == '\n') c = ' ';
   }
@@ -61,10 +133,20 @@ void add_self_description(CLI::App& app) {
       ->trigger_on_parse();
 }
 
+// `sslam help run` is `sslam run --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Low-drift monocular SLAM for indoor places with little texture", "sslam"};
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", std::string("sslam ") + SSLAM_VERSION);
-  app.footer(kFooter);
+  app.footer(footer_of(""));
   app.require_subcommand(1);
   add_run_command(app);
   add_eval_command(app);
@@ -77,10 +159,18 @@ int parse_and_run(int argc, char** argv) {
   add_fetch_command(app);
   add_synth_command(app);
   add_demo_command(app);
-  for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
+  for (CLI::App* command : app.get_subcommands({})) command->footer(footer_of(command->get_name()));
   add_self_description(app);
+  std::vector<std::string> words = words_of(argc, argv);
+  const auto is_command = [&app](const std::string& word) {
+    const std::vector<const CLI::App*> all = std::as_const(app).get_subcommands(nullptr);
+    return std::any_of(all.begin(), all.end(), [&](const CLI::App* each) { return each->check_name(word); });
+  };
+  const bool asks_for_help = argc > 1 && std::string_view(argv[1]) == "help" && words.size() > 1;
+  if (asks_for_help && !is_command(words.front())) words.pop_back();  // which tells that there is none
+  std::reverse(words.begin(), words.end());                           // as CLI11 takes them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return report_parse_result(app, error);
   }
@@ -114,6 +204,9 @@ int sslam::run_program(int argc, char** argv) {
     return code;
   } catch (const Stop& stop) {
     return static_cast<int>(stop.code);
+  } catch (const UsageError& error) {
+    print_error(error.what());
+    return static_cast<int>(ExitCode::kUsage);
   } catch (const cv::Exception& error) {  // its what() has several lines, and places in OpenCV's sources
     print_error("OpenCV could not do what it was asked to: " + error.err + " (in " + error.func + ")");
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "cli/input/image_camera.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 
@@ -65,17 +66,17 @@ Board::Board(const BoardSettings& settings) : settings_(settings) {
       std::find_if(kDictionaries.begin(), kDictionaries.end(),
                    [&](const NamedDictionary& known) { return known.name == settings.dictionary; });
   if (dictionary == kDictionaries.end())
-    throw Error("--dictionary " + settings.dictionary + ": not known; use one of " + dictionary_names());
+    throw UsageError("--dictionary " + settings.dictionary + ": not known; use one of " + dictionary_names());
   if (settings_.marker == 0) settings_.marker = 0.75 * settings_.square;
   if (!(settings_.marker < settings_.square))
-    throw Error(
+    throw UsageError(
         cv::format("--marker %g: must be smaller than --square %g", settings_.marker, settings_.square));
   const auto codes = cv::aruco::getPredefinedDictionary(dictionary->number);
   const int markers = settings.columns * settings.rows / 2;
   if (markers > codes->bytesList.rows)
-    throw Error("--size " + size_text(settings.columns, settings.rows) + ": has " + std::to_string(markers) +
-                " markers, and --dictionary " + settings.dictionary + " " +
-                std::to_string(codes->bytesList.rows));
+    throw UsageError("--size " + size_text(settings.columns, settings.rows) + ": has " +
+                     std::to_string(markers) + " markers, and --dictionary " + settings.dictionary + " " +
+                     std::to_string(codes->bytesList.rows));
   charuco_ =
       cv::aruco::CharucoBoard::create(settings.columns, settings.rows, static_cast<float>(settings_.square),
                                       static_cast<float>(settings_.marker), codes);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/input/shipped_model.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 
@@ -40,7 +41,7 @@ NormalChoice choose_normals(const std::string& text) {
   if (text == "onnx") return {OnnxNormals(shipped_model("name one with --normals onnx:FILE"))};
   if (text.starts_with(kFiles)) return {open_files(text.substr(kFiles.size()))};
   if (text.starts_with(kOnnx)) return {OnnxNormals(text.substr(kOnnx.size()))};
-  throw Error("--normals " + text + ": not known; use none, depth, files:DIR, onnx or onnx:FILE");
+  throw UsageError("--normals " + text + ": not known; use none, depth, files:DIR, onnx or onnx:FILE");
 }
 
 }  // namespace sslam::cli

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/shell/toml_text.hpp"
+#include "sslam/core/closest_word.hpp"
 #include "sslam/core/error.hpp"
 
 namespace sslam::cli {
@@ -20,8 +21,14 @@ inline void apply_config_item(CLI::App& command, const std::string& file, const 
   const bool parameter = !item.parents.empty() && item.parents.front() == "set";
   const std::string key = item.fullname();
   CLI::Option* const option = command.get_option_no_throw(parameter ? "--set" : "--" + key);
-  if (option == nullptr || key == "config")
-    throw Error(file + ": '" + key + "' is not an option of sslam run");
+  if (option == nullptr || key == "config") {
+    std::vector<std::string> known;
+    for (const CLI::Option* each : command.get_options())
+      for (const std::string& name : each->get_lnames()) known.push_back(name);
+    const std::string nearest = closest_word(key, known);
+    throw Error(file + ": '" + key + "' is not an option of sslam " + command.get_name() +
+                (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  }
   if (parameter) {
     // Of two settings of one parameter the later holds, and the command line has been read already.
     const std::vector<std::string> given = option->results();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the process answers to its caller. A command fails by throwing a std::exception whose what() is the
-// one line to print (exit code 1); it stops with another code, and nothing printed, by throwing Stop.
+// one line to print (exit code 1, or 2 for UsageError); it stops with another code, and nothing printed, by
+// throwing Stop.
 #pragma once
+
+#include "sslam/core/error.hpp"
 
 namespace sslam::cli {
 
@@ -10,6 +13,11 @@ enum class ExitCode : int {
   kFailed = 1,         // bad input, unwritable output, no result
   kUsage = 2,          // the command line itself is wrong
   kInterrupted = 130,  // Ctrl-C; what had been computed was written
+};
+
+// A value on the command line that is none of those that there are: kUsage. In a file it is bad input.
+struct UsageError : Error {
+  using Error::Error;
 };
 
 struct Stop {

@@ -69,9 +69,9 @@ std::string section(const CommandInfo& command) {
   return text;
 }
 
-// Of "Exit codes: 0 this; 1 that."
+// Of "Exit codes: 0 this; 1 that." at the footer's end.
 std::string exit_status(std::string footer) {
-  footer.erase(0, footer.find(':') + 1);
+  footer.erase(0, footer.find(':', footer.find("Exit codes")) + 1);
   if (footer.ends_with('.')) footer.pop_back();
   std::string text;
   for (std::string code : CLI::detail::split(footer, ';')) {

@@ -26,7 +26,10 @@ std::string in_one_line(const std::string& text) {
 
 void print_message(const char* kind, const std::string& text) {
   if (message_form == MessageForm::kJson) return print_json({{"event", kind}, {"text", text}});
-  std::fprintf(message_stream(), "sslam: %s: %s\n", kind, in_one_line(text).c_str());
+  // On a terminal, a bar may stand in this line.
+  static const bool terminal = isatty(fileno(message_stream())) != 0;
+  std::fprintf(message_stream(), "%ssslam: %s: %s\n", terminal ? "\r\033[K" : "", kind,
+               in_one_line(text).c_str());
 }
 
 // What is the same in warnings of one kind: frames and rows differ by their numbers.

@@ -21,6 +21,8 @@ ValueKind kind_of(const OptionInfo& info) {
   return ValueKind::kText;
 }
 
+}  // namespace
+
 OptionInfo describe_option(const CLI::Option& option) {
   OptionInfo info;
   for (const std::string& name : option.get_snames()) info.flags.push_back("-" + name);
@@ -39,8 +41,6 @@ OptionInfo describe_option(const CLI::Option& option) {
   info.repeated = option.get_items_expected_max() > 1;
   return info;
 }
-
-}  // namespace
 
 std::string words_type(const std::vector<std::string>& words) {
   return "{" + CLI::detail::join(words, ",") + "}";

@@ -35,6 +35,8 @@ struct CommandInfo {
 // For Option::type_name: the value is one of these.
 [[nodiscard]] std::string words_type(const std::vector<std::string>& words);
 
+[[nodiscard]] OptionInfo describe_option(const CLI::Option& option);
+
 // Of an application or a subcommand, in the order in which its options were added; hidden ones are left out.
 [[nodiscard]] CommandInfo describe_command(const CLI::App& app);
 

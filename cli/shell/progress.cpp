@@ -16,18 +16,36 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Of what comes without end, nobody knows it.
+Json total_json(std::size_t total) {
+  return total > 0 ? Json(total) : Json(nullptr);
+}
+
 std::string counts(const TrackResult<double>& result) {
   return std::to_string(result.point_inliers) + " points, " + std::to_string(result.line_inliers) + " lines";
 }
 
-// Cut to what the terminal shows in one line: a wrapped line cannot be written over.
+// Cut to what the terminal shows in one line, since a wrapped line cannot be written over; to 80 columns
+// elsewhere.
 std::string fitting(std::string line) {
   winsize size{};
-  if (ioctl(fileno(message_stream()), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return line;
-  std::size_t end = std::min<std::size_t>(line.size(), size.ws_col - 1U);
+  std::size_t columns = 80;
+  if (ioctl(fileno(message_stream()), TIOCGWINSZ, &size) == 0 && size.ws_col > 0) columns = size.ws_col;
+  std::size_t end = std::min<std::size_t>(line.size(), columns - 1);
   while (end > 0 && end < line.size() && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
   line.resize(end);
   return line;
+}
+
+// "1:02:03", "2:03"
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(std::min(seconds, 1e9) + 0.5);
+  char text[40];
+  if (whole >= 3600)
+    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%lld:%02lld", whole / 60, whole % 60);
+  return text;
 }
 
 }  // namespace
@@ -37,7 +55,8 @@ Progress::Progress(std::size_t total, Verbosity verbosity, std::string task)
       verbosity_(verbosity),
       task_(std::move(task)),
       terminal_(isatty(fileno(message_stream())) != 0) {
-  if (verbosity_ == Verbosity::kJson) print_json({{"event", "start"}, {"task", task_}, {"total", total_}});
+  if (verbosity_ == Verbosity::kJson)
+    print_json({{"event", "start"}, {"task", task_}, {"total", total_json(total_)}});
 }
 
 double Progress::seconds() const {
@@ -52,7 +71,7 @@ void Progress::show(const FrameReport& frame) {
     return print_json({{"event", "frame"},
                        {"task", task_},
                        {"done", done_},
-                       {"total", total_},
+                       {"total", total_json(total_)},
                        {"index", r.index},
                        {"stamp", r.stamp},
                        {"state", name(r.state)},
@@ -62,9 +81,11 @@ void Progress::show(const FrameReport& frame) {
                        {"keyframe", r.keyframe},
                        {"frame_ms", frame.frame_ms()}});
   if (verbosity_ == Verbosity::kVerbose) tell_event(frame);
-  char detail[160];
-  std::snprintf(detail, sizeof detail, "%-12s %3d points %3d lines  %s", name(r.state), r.point_inliers,
-                r.line_inliers, name(r.reason));
+  std::string detail = name(r.state);
+  if (r.has_pose())
+    detail += ", " + counts(r);
+  else if (r.reason != Reason::kFine)
+    detail += std::string(", ") + name(r.reason);
   renew_line(detail);
 }
 
@@ -72,8 +93,11 @@ void Progress::show(const std::string& detail) {
   const std::lock_guard lock(mutex_);
   ++done_;
   if (verbosity_ == Verbosity::kJson)
-    return print_json(
-        {{"event", "progress"}, {"task", task_}, {"done", done_}, {"total", total_}, {"detail", detail}});
+    return print_json({{"event", "progress"},
+                       {"task", task_},
+                       {"done", done_},
+                       {"total", total_json(total_)},
+                       {"detail", detail}});
   renew_line(detail);
 }
 
@@ -104,14 +128,21 @@ void Progress::renew_line(const std::string& detail) {
 void Progress::print_line(const std::string& detail) {
   const double elapsed = seconds();
   const double rate = elapsed > 0 ? static_cast<double>(done_) / elapsed : 0;
-  constexpr std::size_t kWidth = 24;
-  const std::size_t filled = total_ > 0 ? std::min(kWidth, done_ * kWidth / total_) : kWidth;
-  const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  char head[160];
-  std::snprintf(head, sizeof head, "%zu/%zu [%s] %5.1f frames/s  ", done_, total_, bar.c_str(), rate);
-  const std::string line = head + detail;
+  std::string line = task_ + ' ' + std::to_string(done_);
+  if (total_ > 0) {
+    constexpr std::size_t kWidth = 12;
+    const std::size_t filled = std::min(kWidth, done_ * kWidth / total_);
+    line += '/' + std::to_string(total_) + " [" + std::string(filled, '#') +
+            std::string(kWidth - filled, '.') + ']';
+  }
+  char text[40];
+  std::snprintf(text, sizeof text, " %.1f/s", rate);
+  line += text;
+  if (total_ > done_ && rate > 0)
+    line += ", " + clock_text(static_cast<double>(total_ - done_) / rate) + " left";
+  line = fitting(line + "  " + detail);
   if (terminal_)
-    std::fprintf(message_stream(), "\r%s\033[K", fitting(line).c_str());
+    std::fprintf(message_stream(), "\r%s\033[K", line.c_str());
   else
     std::fprintf(message_stream(), "%s\n", line.c_str());
   std::fflush(message_stream());
@@ -126,8 +157,11 @@ void Progress::clear_line() {
 void Progress::finish() {
   const std::lock_guard lock(mutex_);
   if (verbosity_ == Verbosity::kJson)
-    print_json(
-        {{"event", "end"}, {"task", task_}, {"done", done_}, {"total", total_}, {"seconds", seconds()}});
+    print_json({{"event", "end"},
+                {"task", task_},
+                {"done", done_},
+                {"total", total_json(total_)},
+                {"seconds", seconds()}});
   if (open_line_) std::fputc('\n', message_stream());
   open_line_ = false;
 }

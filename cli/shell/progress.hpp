@@ -22,7 +22,7 @@ enum class Verbosity {
 
 class Progress {
  public:
-  // task: what is in progress, for programs, such as "run".
+  // total: steps to come; 0: not known. task: what is in progress, such as "run".
   Progress(std::size_t total, Verbosity verbosity, std::string task);
 
   void show(const FrameReport& frame);

@@ -25,7 +25,7 @@ inline void add_progress_options(CLI::App& command, Verbosity& verbosity, bool t
           ->excludes(quiet);
   if (!tracks) return;
   command
-      .add_flag_callback("--verbose", be(Verbosity::kVerbose),
+      .add_flag_callback("-v,--verbose", be(Verbosity::kVerbose),
                          "A line for each change of state, loss and keyframe, with the reason")
       ->excludes(quiet)
       ->excludes(json);

@@ -14,11 +14,11 @@ sslam_cli_test(NAME "calibrate of a broken image" ARGS calibrate ${folder}/text.
                ERR "sslam: error: [^\n]*text.png: cannot decode this image\n$")
 sslam_cli_test(NAME "calibrate below a file" ARGS calibrate ${image} --out ${folder}/file/camera.yaml CODE 1
                ERR "^sslam: error: [^\n]*file: cannot make this folder")
-sslam_cli_test(NAME "calibrate with more markers than codes" ARGS calibrate ${image} --pattern charuco --size 20x20 CODE 1
+sslam_cli_test(NAME "calibrate with more markers than codes" ARGS calibrate ${image} --pattern charuco --size 20x20 CODE 2
                ERR "^sslam: error: --size 20x20: has 200 markers, and --dictionary 4x4_50 50\n$")
-sslam_cli_test(NAME "calibrate with an unknown dictionary" ARGS calibrate ${image} --pattern charuco --dictionary 3x3 CODE 1
+sslam_cli_test(NAME "calibrate with an unknown dictionary" ARGS calibrate ${image} --pattern charuco --dictionary 3x3 CODE 2
                ERR "^sslam: error: --dictionary 3x3: not known; use one of 4x4_50, ")
-sslam_cli_test(NAME "calibrate with a large marker" ARGS calibrate ${image} --pattern charuco --marker 0.03 CODE 1
+sslam_cli_test(NAME "calibrate with a large marker" ARGS calibrate ${image} --pattern charuco --marker 0.03 CODE 2
                ERR "^sslam: error: --marker 0.03: must be smaller than --square 0.025\n$")
 sslam_cli_test(NAME "calibrate with a wrong size" ARGS calibrate ${image} --size 9 CODE 2 ERR "--size: '9' is not a size such as 9x6")
 sslam_cli_test(NAME "calibrate with an unknown pattern" ARGS calibrate ${image} --pattern circles CODE 2 ERR "sslam: error: --pattern")

@@ -163,7 +163,7 @@ TEST_CASE("a terminal shows one line that is written over and never wraps") {
   const RoomCopy copy;
   const std::string text = on_terminal(track(copy, "--end 40 >/dev/null"), 50);
   INFO(text);
-  REQUIRE(text.find("\r40/40 [########################]") != std::string::npos);
+  REQUIRE(text.find("\rrun 40/40 [############]") != std::string::npos);
   REQUIRE(std::count(text.begin(), text.end(), '\n') == 1);
   std::istringstream shown(text.substr(0, text.find('\n')));
   for (std::string line; std::getline(shown, line, '\r');)
@@ -179,7 +179,7 @@ TEST_CASE("without a terminal there are plain lines, and none where quiet is ask
   const RoomCopy copy;
   const Streams plain = run_apart(track(copy, "--end 30")),
                 quiet = run_apart(track(copy, "--end 30 --quiet"));
-  REQUIRE(plain.err.find("30/30 [########################]") != std::string::npos);
+  REQUIRE(plain.err.find("run 30/30 [############]") != std::string::npos);
   REQUIRE(plain.err.find('\r') == std::string::npos);
   REQUIRE(quiet.err.empty());
   REQUIRE(quiet.out.find("tracked ") == 0);
@@ -195,4 +195,17 @@ TEST_CASE("a demo tells a program of both its parts") {
   for (const auto& event : events_of(streams.err))
     if (event["event"] == "end") tasks.push_back(event["task"]);
   REQUIRE(tasks == std::vector<std::string>{"synth", "run"});
+}
+
+TEST_CASE("help fits the terminal, and the line of progress 80 columns elsewhere") {
+  for (const unsigned short columns : {std::uint16_t{60}, std::uint16_t{100}}) {
+    std::size_t longest = 0;
+    for (const std::string& line : lines_of(on_terminal("run --help", columns)))
+      longest = std::max(longest, line.find_last_not_of(" \r") + 1);
+    INFO(longest);
+    CHECK((longest > columns * 3U / 4 && longest <= columns));
+  }
+  const RoomCopy copy;
+  for (const std::string& line : lines_of(run_apart(track(copy, "--end 20")).err))
+    if (line.starts_with("run ")) CHECK(line.size() < 80);
 }
