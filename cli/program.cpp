@@ -80,7 +80,9 @@ std::string unknown_word(const CLI::App& app) {
   const CLI::App& command = named_command(app);
   const std::vector<std::string> left = app.remaining(true);
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
-  const auto option = std::find_if(left.begin(), left.end(), is_option);
+  // Of a command that nobody knows, the options are not known either.
+  const bool no_command = &command == &app && !left.empty() && !is_option(left.front());
+  const auto option = no_command ? left.end() : std::find_if(left.begin(), left.end(), is_option);
   const std::string full = &command == &app ? "sslam" : "sslam " + command.get_name();
   const auto meant = [](const std::string& word, const std::vector<std::string>& known) {
     const std::string nearest = closest_word(word, known);

@@ -22,10 +22,14 @@
 #include "cli/run/track_sequence.hpp"
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
+#include "cli/shell/help_formatter.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
+#include "cli/stream/live_source.hpp"
+#include "cli/stream/recording.hpp"
+#include "cli/stream/stream_name.hpp"
 #include "cli/video/overlay_video.hpp"
 #include "cli/view/live_view.hpp"
 #include "cli/view/view_options.hpp"
@@ -47,6 +51,13 @@ void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
   if (source == "none" || any || outcome.frames.size() < kEnough) return;
   outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(outcome.frames.size()) +
                              " frames has normals that are of use; sslam normals shows what a network sees");
+}
+
+void note_stream(const LiveSource& source, RunOutcome& outcome) {
+  const StreamFigures figures = source.figures();
+  outcome.frames_dropped = figures.dropped;
+  outcome.stream_losses = figures.lost;
+  if (!figures.end.empty()) outcome.warnings.push_back(figures.end);
 }
 
 class ProgressObserver : public Observer {
@@ -73,8 +84,23 @@ void run(RunSettings settings) {
   wanted.parameters = set_parameters(preset, settings.set);
   Map<double> known;
   if (!settings.map.empty()) known = load_run_map(settings.map);
-  const io::Dataset dataset = open_run_dataset(settings);
-  const CameraChoice camera = choose_run_camera(settings, dataset);
+  std::optional<Recording> recording;
+  std::optional<Interrupt> interrupt;  // until all is written
+  std::optional<LiveSource> source;
+  io::Dataset dataset;
+  CameraChoice camera;
+  if (const std::optional<StreamName> stream = stream_named(settings.dataset)) {
+    interrupt.emplace();  // it may never send anything
+    source.emplace(*stream, StreamOptions{settings.live, settings.retry, settings.frame_rate, settings.slice,
+                                          size_of_stream_camera(settings)});
+    const cv::Size size = source->wait_for_first();
+    dataset = source->dataset();
+    settings.dataset = dataset.root.string();
+    camera = choose_stream_camera(settings, dataset, size);
+  } else {
+    dataset = open_run_dataset(settings);
+    camera = choose_run_camera(settings, dataset);
+  }
   print_notes(camera);
   check_normals(settings, dataset, camera.depth_factor);
   MaskSource masks;
@@ -89,10 +115,14 @@ void run(RunSettings settings) {
   wanted.keep_pictures = true;  // the map's colours come from them
   io::prepare_output_folder(settings.out);
   const FolderLock lock = FolderLock::demand(settings.out);
+  if (!settings.record.empty()) {
+    recording.emplace(settings.record);
+    if (!camera.assumed) recording->keep_camera(camera.camera);
+  }
 
   System system(std::move(wanted));
   const std::size_t frames = dataset.frames.size(), known_keyframes = known.keyframes.size();
-  RunRecorder recorder(system.camera(), frames, settings.report ? (frames + kMaxViews - 1) / kMaxViews : 0);
+  RunRecorder recorder(system.camera(), frames, settings.report ? kMaxViews : 0);
   if (!known.empty()) {
     recorder.colours.note(known, load_map_colours(settings.map, known));
     system.resume(std::move(known));
@@ -106,12 +136,16 @@ void run(RunSettings settings) {
   Progress progress(frames, settings.verbosity, "run");
   ProgressObserver progress_observer(progress);
   system.add_observer(progress_observer);
-  const Interrupt interrupt;  // until all is written
-  FrameStream stream(dataset, system, settings.live ? dataset.seconds_per_stamp : 0, masks);
+  if (!interrupt) interrupt.emplace();
+  const bool paced = settings.live && !(source && source->sets_the_pace());
+  FrameStream stream(dataset, system,
+                     {paced ? dataset.seconds_per_stamp : 0, masks, source ? &*source : nullptr,
+                      recording ? &*recording : nullptr});
   track_sequence(system, stream, recorder, known_keyframes);
   progress.finish();
 
   RunOutcome& outcome = recorder.outcome;
+  if (source) note_stream(*source, outcome);
   warn_of_useless_normals(settings.normals, outcome);
   print_warnings(outcome.warnings);
   ResultSet results(settings.out);
@@ -142,7 +176,8 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option(
           "dataset", s->dataset,
-          "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, or a video")
+          "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, a video, " +
+              std::string(kStreamKinds))
       ->required();
   add_camera_options(*command, s->camera, s->focal, s->fov);
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
@@ -168,7 +203,7 @@ void add_run_command(CLI::App& app) {
       ->add_option("--map", s->map,
                    "Go on in the map of an earlier run, its map.sslam: poses are in that map's world")
       ->type_name("FILE");
-  command->add_option("--out", s->out, "Folder for the results")->capture_default_str()->type_name("DIR");
+  command->add_option("-o,--out", s->out, "Folder for the results")->capture_default_str()->type_name("DIR");
   command->add_option("--start", s->slice.start, "First frame")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
@@ -177,7 +212,8 @@ void add_run_command(CLI::App& app) {
   command->add_option("--stride", s->slice.stride, "Take every n-th frame")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  command->add_option("--set", s->set, "stage.parameter=value, see --list-parameters; may be repeated");
+  command->add_option("--set", s->set, "stage.parameter=value, see --list-parameters; may be repeated")
+      ->allow_extra_args(false);
   const auto list = [] {
     std::fputs(describe_parameters().c_str(), stdout);
     throw CLI::Success();
@@ -189,11 +225,20 @@ void add_run_command(CLI::App& app) {
       "--live", s->live,
       "As with a camera: frames come at the pace of their stamps, mapping and loop closing have "
       "a thread of their own, tracking never waits for them; no two runs are alike");
+  command
+      ->add_option("--record", s->record,
+                   "Keep the images as a dataset that sslam run takes, in a new folder, as they come")
+      ->type_name("DIR");
+  command->add_option("--retry", s->retry, "Seconds that a lost camera or stream is tried again for")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 86400.0));
   command->add_flag_callback(
       "--no-final-pass", [s] { s->final_pass = false; },
       "Leave out what follows the last frame: the whole map is adjusted, and every frame tracked again in "
       "it");
-  command->add_option("--fps", s->frame_rate, "Frames a second, for images without stamps")
+  command
+      ->add_option("--fps", s->frame_rate,
+                   "Frames a second, for images without stamps, in a folder or through a pipe")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command
@@ -207,6 +252,14 @@ void add_run_command(CLI::App& app) {
   command->add_flag_callback(
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   add_progress_options(*command, s->verbosity, true);
+  put_in_group(*command, "Input",
+               {"--camera", "--focal", "--fov", "--start", "--end", "--stride", "--fps", "--longest-side",
+                "--mask", "--record", "--retry"});
+  put_in_group(*command, "Tracking",
+               {"--normals", "--preset", "--set", "--list-parameters", "--seed", "--map", "--live",
+                "--no-final-pass"});
+  put_in_group(*command, "Output", {"--out", "--video", "--view", "--port", "--no-report"});
+  put_in_group(*command, "Messages", {"--quiet", "--verbose", "--json-progress"});
   command->callback([s] { run(*s); });
 }
 

@@ -34,6 +34,8 @@ struct RunSettings {
   int longest_side = 960;  // of the images as they are worked on, pixels
   bool final_pass = true;  // all frames are tracked again in the finished map
   bool report = true;      // write report.html
+  double retry = 10;       // seconds that a lost stream is tried again for
+  std::string record;      // folder to keep what is tracked in, as a dataset; empty: none
   std::string video;       // overlay video to write; empty: none
   bool view = false;       // show the run while it goes on, and its report until Ctrl-C
   int port = 0;            // of that page; 0: any free one

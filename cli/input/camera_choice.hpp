@@ -34,6 +34,7 @@ struct CameraChoice {
   double frame_rate = 0;    // frames a second; 0: not known
   std::string source;       // for the report: a path or a name
   std::vector<std::string> notes, warnings;
+  bool assumed = false;  // nobody knows this camera
 };
 
 inline void print_notes(const CameraChoice& choice) {
@@ -43,11 +44,12 @@ inline void print_notes(const CameraChoice& choice) {
 
 [[nodiscard]] inline CameraChoice camera_from_file(const std::filesystem::path& path) {
   const CameraFile file = read_camera_file(path);
-  return {file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}};
+  return {file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
 }
 
 [[nodiscard]] inline CameraChoice camera_from_known(const io::KnownCamera& known) {
-  return {known.camera, known.depth_factor, known.frame_rate, "built in: " + std::string(known.name), {}, {}};
+  return {known.camera, known.depth_factor, known.frame_rate, "built in: " + std::string(known.name), {}, {},
+          false};
 }
 
 // Names that camera files have where programs put them beside the images.
@@ -58,6 +60,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
 // The camera file that lies in the dataset, or beside the video; empty: none.
 [[nodiscard]] inline std::filesystem::path own_camera_file(const io::Dataset& dataset) {
   if (!dataset.camera_file.empty()) return dataset.camera_file;
+  if (dataset.layout == io::Layout::kStream) return {};  // lies nowhere
   std::error_code ignored;
   const bool folder = std::filesystem::is_directory(dataset.root, ignored);
   const std::filesystem::path place = folder ? dataset.root : dataset.root.parent_path();
@@ -122,6 +125,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
   constexpr double kView = 60;  // degrees
   const double focal = focal_of_view(kView, std::max(width, height));
   CameraChoice choice = plain_camera(focal, width, height, "assumed: 60 degrees");
+  choice.assumed = true;
   std::snprintf(
       text, sizeof text,
       "the camera is not known: ASSUMING a field of view of %.0f degrees along the longer side (a focal "

@@ -10,13 +10,14 @@
 namespace sslam::cli {
 
 // `remarks`: lines of comment behind the heading, each ended; may be empty. What is 0 is left out, but for
-// the coefficients that every reader expects.
-[[nodiscard]] inline std::string camera_yaml(const CameraFile& file, const std::string& remarks) {
+// the coefficients that every reader expects. With 17 digits, the same camera is read again, to the bit.
+[[nodiscard]] inline std::string camera_yaml(const CameraFile& file, const std::string& remarks,
+                                             int digits = 9) {
   const Pinhole<double>& pinhole = file.camera.pinhole;
   const RadTan<double>& lens = file.camera.distortion;
   std::string text = "%YAML:1.0\n---\n" + remarks + "Camera.type: \"PinHole\"\n";
-  const auto number = [&text](const char* key, double value) {
-    text += cv::format("%s: %.9g\n", key, value);
+  const auto number = [&text, digits](const char* key, double value) {
+    text += cv::format("%s: %.*g\n", key, digits, value);
   };
   number("Camera.fx", pinhole.fx);
   number("Camera.fy", pinhole.fy);

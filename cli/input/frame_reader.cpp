@@ -101,11 +101,13 @@ cv::Mat FrameReader::read_video(const io::FrameEntry& entry, std::string& why) {
 }
 
 std::string FrameReader::label(const io::FrameEntry& entry) const {
+  if (dataset_.layout == io::Layout::kStream) return entry.image + " frame " + std::to_string(entry.index);
   const std::string file = std::filesystem::path(entry.image).filename().string();
   return is_video() ? file + " frame " + std::to_string(entry.index) : file;
 }
 
 std::string FrameReader::stem(const io::FrameEntry& entry) const {
+  if (dataset_.layout == io::Layout::kStream) return video_frame_stem("stream", entry.index);
   return is_video() ? video_frame_stem(entry.image, entry.index)
                     : std::filesystem::path(entry.image).stem().string();
 }

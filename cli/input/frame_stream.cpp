@@ -4,26 +4,32 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/input/size_text.hpp"
 #include "cli/shell/interrupt.hpp"
 
 namespace sslam::cli {
 
-FrameStream::FrameStream(const io::Dataset& dataset, System& system, double pace, MaskSource masks)
+FrameStream::FrameStream(io::Dataset& dataset, System& system, FrameStreamOptions options)
     : dataset_(dataset),
       system_(system),
-      pace_(pace),
+      options_(std::move(options)),
       reader_(dataset, {system.settings().camera.width, system.settings().camera.height}),
-      masks_(std::move(masks)) {
+      ahead_(options_.source != nullptr ? 1 : 3) {  // what waits is old when it is tracked
   producer_ = std::thread([this] { produce(); });
 }
 
 FrameStream::~FrameStream() {
+  stop();
+  producer_.join();
+}
+
+void FrameStream::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
   changed_.notify_all();
-  producer_.join();
+  if (options_.source != nullptr) options_.source->stop();
 }
 
 bool FrameStream::next(ExtractedFrame& out) {
@@ -40,26 +46,20 @@ bool FrameStream::next(ExtractedFrame& out) {
   spare_.push_back(std::move(ready_.front()));
   ready_.pop_front();
   changed_.notify_all();
+  if (options_.source != nullptr) dataset_.frames.push_back(out.entry);
   return true;
 }
 
 void FrameStream::produce() {
   try {
-    for (const io::FrameEntry& entry : dataset_.frames) {
-      ExtractedFrame frame;
-      {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return ready_.size() < kAhead || stop_; });
-        if (stop_ || !wait_until_due(lock, entry)) return;
-        if (!spare_.empty()) {
-          frame = std::move(spare_.back());
-          spare_.pop_back();
-        }
+    if (options_.source != nullptr) {
+      produce_from_source();
+    } else {
+      for (const io::FrameEntry& entry : dataset_.frames) {
+        SourceFrame frame;
+        frame.entry = entry;
+        if (!deliver(frame)) break;
       }
-      fill(entry, frame);
-      const std::lock_guard lock(mutex_);
-      ready_.push_back(std::move(frame));
-      changed_.notify_all();
     }
   } catch (...) {
     failure_ = std::current_exception();
@@ -69,34 +69,82 @@ void FrameStream::produce() {
   changed_.notify_all();
 }
 
+// The newest frame is taken when there is room for it, not before.
+void FrameStream::produce_from_source() {
+  const auto has_room = [this] {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ready_.size() < ahead_ || stop_; });
+    return !stop_;
+  };
+  SourceFrame frame;
+  while (has_room() && options_.source->next(frame) && deliver(frame)) frame = {};
+}
+
+// False: the stream is to stop.
+bool FrameStream::deliver(SourceFrame& frame) {
+  ExtractedFrame extracted;
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ready_.size() < ahead_ || stop_; });
+    if (stop_ || !wait_until_due(lock, frame.entry)) return false;
+    if (!spare_.empty()) {
+      extracted = std::move(spare_.back());
+      spare_.pop_back();
+    }
+  }
+  fill(frame, extracted);
+  const std::lock_guard lock(mutex_);
+  ready_.push_back(std::move(extracted));
+  changed_.notify_all();
+  return true;
+}
+
 // A frame that finds no room comes late: none is dropped. False: the stream is to stop.
 bool FrameStream::wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry) {
-  if (pace_ == 0) return true;
+  if (options_.pace == 0) return true;
+  if (!first_stamp_) first_stamp_ = entry.stamp;
   constexpr double kLongest = 1e9;  // 30 years: the clock's own unit cannot count all stamps
-  const double since = std::min((entry.stamp - dataset_.frames.front().stamp) * pace_, kLongest);
+  const double since = std::min((entry.stamp - *first_stamp_) * options_.pace, kLongest);
   const auto due = start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(since));
   return !changed_.wait_until(lock, due, [&] { return stop_; });
 }
 
-void FrameStream::fill(const io::FrameEntry& entry, ExtractedFrame& out) {
+// A source's frame has been decoded already.
+void FrameStream::read(SourceFrame& frame) {
+  if (options_.source == nullptr) {
+    frame.image = reader_.read(frame.entry, frame.why);
+    return;
+  }
+  const Camera<double>& camera = system_.settings().camera;
+  const cv::Size expected(camera.width, camera.height);
+  if (frame.image.empty() || frame.image.size() == expected) return;
+  frame.why = wrong_size(reader_.label(frame.entry), frame.image.size(), expected);
+  frame.image.release();
+}
+
+void FrameStream::fill(SourceFrame& frame, ExtractedFrame& out) {
+  const io::FrameEntry& entry = frame.entry;
+  out.entry = entry;
   out.label = reader_.label(entry);
   out.warning.clear();
   ImageInput input;
   input.index = entry.index;
   input.stamp = entry.stamp;
   input.name = reader_.stem(entry);
-  std::string why;
-  input.image = reader_.read(entry, why);
+  read(frame);
+  input.image = frame.image;
   if (!input.image.empty()) {
     read_depth(entry, input, out);
     std::string maskless;
-    input.mask = masks_.of(input.name, maskless);
+    input.mask = options_.masks.of(input.name, maskless);
     if (!maskless.empty()) out.warning = maskless + "; all of the frame is used";
+    if (options_.recording != nullptr)
+      options_.recording->add(entry.stamp * dataset_.seconds_per_stamp, frame, out.warning);
   }
   system_.extract(input, out);
   if (!out.usable()) {
-    if (why.empty()) why = entry.image + ": " + name(out.report.image);
-    out.warning = why + "; frame skipped";
+    if (frame.why.empty()) frame.why = entry.image + ": " + name(out.report.image);
+    out.warning = frame.why + "; frame skipped";
     return;
   }
   if (out.warning.empty()) out.warning = normals_warning(entry, out.report.normals);

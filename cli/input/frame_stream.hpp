@@ -16,48 +16,62 @@
 
 #include "cli/input/frame_reader.hpp"
 #include "cli/input/mask_source.hpp"
+#include "cli/stream/live_source.hpp"
+#include "cli/stream/recording.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam::cli {
 
 struct ExtractedFrame : Extraction {
+  io::FrameEntry entry;
   std::string warning;  // not empty: something is wrong with this frame
+};
+
+struct FrameStreamOptions {
+  double pace = 0;  // seconds a unit of the stamps, to deliver frames as a camera would; 0: at once
+  MaskSource masks;
+  LiveSource* source = nullptr;    // where frames come from, instead of the dataset's list
+  Recording* recording = nullptr;  // keeps what comes
 };
 
 class FrameStream {
  public:
-  // `pace`: seconds a unit of the stamps, to deliver frames as a camera would; 0: at once. The dataset and
-  // the system outlive the stream.
-  FrameStream(const io::Dataset& dataset, System& system, double pace, MaskSource masks = {});
+  // Dataset, system, source and recording outlive the stream. Frames of a source join the dataset when they
+  // are taken.
+  FrameStream(io::Dataset& dataset, System& system, FrameStreamOptions options);
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
-
-  [[nodiscard]] std::size_t size() const noexcept { return dataset_.frames.size(); }
 
   // The next frame in order; false at the end, or when Ctrl-C is pressed during the wait for it. The old
   // contents of `out` are recycled.
   [[nodiscard]] bool next(ExtractedFrame& out);
 
+  // No further frame is wanted. Waits for nothing.
+  void stop();
+
  private:
   void produce();
+  void produce_from_source();
+  [[nodiscard]] bool deliver(SourceFrame& frame);
   [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
-  void fill(const io::FrameEntry& entry, ExtractedFrame& out);
+  void fill(SourceFrame& frame, ExtractedFrame& out);
+  void read(SourceFrame& frame);
   [[nodiscard]] std::string normals_warning(const io::FrameEntry& entry, NormalStatus status);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
 
-  const io::Dataset& dataset_;
+  io::Dataset& dataset_;
   System& system_;
-  double pace_;
+  FrameStreamOptions options_;
   FrameReader reader_;
-  MaskSource masks_;
   std::set<NormalStatus> told_;  // faults of the source of normals
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
+  std::optional<double> first_stamp_;
 
-  static constexpr std::size_t kAhead = 3;  // frames extracted before they are asked for
+  std::size_t ahead_;  // frames extracted before they are asked for
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<ExtractedFrame> ready_;

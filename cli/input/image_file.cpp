@@ -11,7 +11,6 @@
 #include "sslam/io/datasets/video.hpp"
 
 namespace sslam::cli {
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -19,8 +18,6 @@ bool is_too_large(const ImageHeader& header, cv::Size expected) {
   return header.size != expected &&
          static_cast<std::int64_t>(header.size.width) * header.size.height > kMostPixels;
 }
-
-}  // namespace
 
 bool open_image(const fs::path& path, std::vector<std::uint8_t>& bytes, ImageHeader& header, std::string& why,
                 cv::Size expected) {

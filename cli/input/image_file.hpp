@@ -15,6 +15,9 @@
 
 namespace sslam::cli {
 
+// Claims more pixels than anybody has; but `expected` many are let in.
+[[nodiscard]] bool is_too_large(const ImageHeader& header, cv::Size expected);
+
 // Reads the file and what its bytes say of the image. False, with the reason in `why`, when there is nothing
 // to decode: the file is missing, has lost its end, or claims more pixels than anybody has; but `expected`
 // many are let in.

@@ -2,6 +2,7 @@
 #include "cli/input/image_header.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -77,9 +78,10 @@ std::size_t end_of_scan(Bytes bytes, std::size_t at) {
 }
 
 void read_jpeg(Bytes bytes, ImageHeader& header) {
-  constexpr std::uint8_t kEnd = 0xd9, kScan = 0xda, kApp1 = 0xe1;
+  constexpr std::uint8_t kStart = 0xd8, kEnd = 0xd9, kScan = 0xda, kApp1 = 0xe1;
   const ByteReader reader(bytes, true);
   header.complete = false;
+  bool scanned = false;
   std::size_t at = 2;
   while (at + 2 <= bytes.size()) {
     const std::uint8_t code = bytes[at + 1];
@@ -89,6 +91,11 @@ void read_jpeg(Bytes bytes, ImageHeader& header) {
     }
     if (code == kEnd) {
       header.complete = true;
+      header.end = at + 2;
+      return;
+    }
+    if (code == kStart && scanned) {  // of the next image in a stream: this one has lost its end
+      header.end = at;
       return;
     }
     if (code == 0xff || code == 0 || code == 1 || (code >= 0xd0 && code <= 0xd8)) {  // padding, or no length
@@ -103,7 +110,10 @@ void read_jpeg(Bytes bytes, ImageHeader& header) {
     if (code == kApp1 && says(bytes, at + 4, "Exif") && length > 2 + kExif && at + 2 + length <= bytes.size())
       read_tiff(bytes.subspan(at + 4 + kExif, length - 2 - kExif), header, false);
     at += 2 + std::max<std::size_t>(length, 2);
-    if (code == kScan) at = end_of_scan(bytes, at);
+    if (code == kScan) {
+      scanned = true;
+      at = end_of_scan(bytes, at);
+    }
   }
 }
 
@@ -117,6 +127,7 @@ void read_png(Bytes bytes, ImageHeader& header) {
       read_tiff(bytes.subspan(at + 8, length), header, false);
     if (says(bytes, at + 4, "IEND")) {
       header.complete = true;
+      header.end = at + 12;
       return;
     }
     at += 12 + length;
@@ -127,6 +138,7 @@ void read_webp(Bytes bytes, ImageHeader& header) {
   const ByteReader reader(bytes, false);
   const std::size_t end = std::size_t{reader.number(4, 4)} + 8;
   header.complete = bytes.size() >= end;
+  if (header.complete) header.end = end;
   if (says(bytes, 12, "VP8X")) {
     header.size = size_of(reader.number(24, 3) + 1, reader.number(27, 3) + 1);
   } else if (says(bytes, 12, "VP8L")) {
@@ -151,6 +163,41 @@ void read_bmp(Bytes bytes, ImageHeader& header) {
   const auto height = static_cast<std::int32_t>(reader.number(22, 4));  // negative: rows from the top
   header.size = size_of(reader.number(18, 4), height < 0 ? 0U - static_cast<std::uint32_t>(height)
                                                          : static_cast<std::uint32_t>(height));
+  const std::uint32_t end = reader.number(2, 4);  // some programs leave it 0
+  if (end > 54 && end <= bytes.size()) header.end = end;
+}
+
+// Binary PGM and PPM: "P6", width, height and largest value in decimal digits, with comments in between; then
+// one blank and the pixels.
+void read_pnm(Bytes bytes, ImageHeader& header) {
+  constexpr std::uint32_t kMost = 1U << 30;
+  std::array<std::uint32_t, 3> numbers{};
+  std::size_t at = 2;
+  const auto is_digit = [&] { return at < bytes.size() && bytes[at] >= '0' && bytes[at] <= '9'; };
+  const auto is_blank = [&] {
+    return at < bytes.size() && (bytes[at] == ' ' || (bytes[at] >= '\t' && bytes[at] <= '\r'));
+  };
+  header.complete = false;
+  for (std::uint32_t& number : numbers) {
+    while (is_blank() || (at < bytes.size() && bytes[at] == '#')) {
+      const bool comment = bytes[at] == '#';
+      while (comment && at < bytes.size() && bytes[at] != '\n') ++at;
+      ++at;
+    }
+    if (!is_digit()) return;
+    for (; is_digit(); ++at) number = std::min(number * 10 + (bytes[at] - std::uint32_t{'0'}), kMost / 16);
+  }
+  header.size = size_of(numbers[0], numbers[1]);
+  const std::size_t samples = std::size_t{numbers[0]} * numbers[1] * (bytes[1] == '6' ? 3 : 1);
+  const std::size_t end = at + 1 + samples * (numbers[2] > 255 ? 2 : 1);
+  header.complete = is_blank() && end <= bytes.size();
+  if (header.complete) header.end = end;
+}
+
+bool is_pnm(Bytes bytes) {
+  const bool named = says(bytes, 0, "P5") || says(bytes, 0, "P6");
+  return named && bytes.size() > 2 &&
+         (bytes[2] == '#' || bytes[2] == ' ' || (bytes[2] >= '\t' && bytes[2] <= '\r'));
 }
 
 }  // namespace
@@ -172,6 +219,9 @@ ImageHeader read_image_header(Bytes bytes) {
   } else if (says(bytes, 0, "BM")) {
     header.format = ImageFormat::kBmp;
     read_bmp(bytes, header);
+  } else if (is_pnm(bytes)) {
+    header.format = ImageFormat::kPnm;
+    read_pnm(bytes, header);
   } else if (says(bytes, 4, "ftyphei") || says(bytes, 4, "ftypmif") || says(bytes, 4, "ftypavi")) {
     header.format = ImageFormat::kHeif;
   }

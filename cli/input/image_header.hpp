@@ -2,6 +2,7 @@
 // What the bytes of an image file say before anybody decodes them: content counts, not the name's extension.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
@@ -10,7 +11,7 @@ namespace sslam::cli {
 
 using Bytes = std::span<const std::uint8_t>;
 
-enum class ImageFormat : std::uint8_t { kOther, kJpeg, kPng, kWebp, kTiff, kBmp, kHeif };
+enum class ImageFormat : std::uint8_t { kOther, kJpeg, kPng, kWebp, kTiff, kBmp, kPnm, kHeif };
 
 // How the stored pixels have to be turned for an upright picture, in the numbers of EXIF.
 using ImageTurn = int;
@@ -21,6 +22,7 @@ struct ImageHeader {
   cv::Size size;  // of the stored pixels; empty: not known
   ImageTurn turn = kUpright;
   bool complete = true;  // false: the file has lost its end, which decoders fill with grey
+  std::size_t end = 0;   // where the image ends, or another begins in its midst; 0: not known, or not there
 };
 
 // `bytes` is the whole file. What stands behind the image's own end is not looked at.

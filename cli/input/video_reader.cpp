@@ -2,16 +2,14 @@
 #include "cli/input/video_reader.hpp"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/display.h>
-#include <libswscale/swscale.h>
 }
 
 #include <algorithm>
 #include <string>
 #include <thread>
 
+#include "cli/input/ffmpeg_parts.hpp"
 #include "cli/input/image_limit.hpp"
 #include "sslam/core/error.hpp"
 
@@ -19,18 +17,6 @@ namespace sslam::cli {
 
 // Members of the reader: not in an unnamed namespace.
 namespace ffmpeg {
-
-template <auto kFree>
-struct Freed {
-  template <class T>
-  void operator()(T* object) const {
-    kFree(&object);
-  }
-};
-using FormatHandle = std::unique_ptr<AVFormatContext, Freed<avformat_close_input>>;
-using CodecHandle = std::unique_ptr<AVCodecContext, Freed<avcodec_free_context>>;
-using PacketHandle = std::unique_ptr<AVPacket, Freed<av_packet_free>>;
-using FrameHandle = std::unique_ptr<AVFrame, Freed<av_frame_free>>;
 
 // A container and the one stream in it that is looked at.
 struct VideoContainer {
@@ -43,13 +29,8 @@ struct VideoContainer {
 
 namespace {
 
-// Decoders talk of every flaw that they meet. OpenCV's writer sets FFmpeg's level of talk, but no callback.
-void silence() {
-  av_log_set_callback([](void*, int, const char*, va_list) {});
-}
-
 ffmpeg::VideoContainer open_container(const std::filesystem::path& file) {
-  silence();
+  ffmpeg::silence();
   ffmpeg::VideoContainer opened;
   AVFormatContext* format = nullptr;
   AVDictionary* options = nullptr;
@@ -85,10 +66,6 @@ bool is_shown(const ffmpeg::VideoContainer& container, const AVPacket& packet) {
   return container.stream->codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & kShownVp8) != 0;
 }
 
-double container_seconds(std::int64_t stamp, const AVStream& stream) {
-  return static_cast<double>(stamp) * av_q2d(stream.time_base);
-}
-
 // The matrix takes stored pixels (x right, y down) to displayed ones; its signs say which of eight it is.
 ImageTurn turn_of(const AVStream& stream) {
   const auto* matrix = reinterpret_cast<const std::int32_t*>(
@@ -107,14 +84,9 @@ struct VideoReader::Parts {
   ffmpeg::CodecHandle codec;
   ffmpeg::PacketHandle packet{av_packet_alloc()};
   ffmpeg::FrameHandle frame{av_frame_alloc()};
-  SwsContext* scaler = nullptr;
+  ffmpeg::BgrConverter to_bgr;
   bool drained = false;
   VideoInfo info;
-
-  Parts() = default;
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-  ~Parts() { sws_freeContext(scaler); }
 };
 
 VideoReader::VideoReader(const std::filesystem::path& file) : parts_(std::make_unique<Parts>()) {
@@ -161,23 +133,11 @@ bool VideoReader::advance() {
 std::optional<double> VideoReader::time() const {
   const std::int64_t stamp = parts_->frame->best_effort_timestamp;
   if (stamp == AV_NOPTS_VALUE) return std::nullopt;
-  return container_seconds(stamp, *parts_->container.stream);
+  return ffmpeg::container_seconds(stamp, *parts_->container.stream);
 }
 
 cv::Mat VideoReader::image() {
-  Parts& p = *parts_;
-  const AVFrame& frame = *p.frame;
-  p.scaler = sws_getCachedContext(p.scaler, frame.width, frame.height,
-                                  static_cast<AVPixelFormat>(frame.format), frame.width, frame.height,
-                                  AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr);
-  if (p.scaler == nullptr) return {};
-  // swscale writes whole blocks: rows with room behind them, cut off afterwards.
-  constexpr int kBlock = 64;
-  cv::Mat image(frame.height, (frame.width + kBlock - 1) / kBlock * kBlock, CV_8UC3);
-  std::uint8_t* const rows[] = {image.data};
-  const int strides[] = {static_cast<int>(image.step)};
-  sws_scale(p.scaler, frame.data, frame.linesize, 0, frame.height, rows, strides);
-  return image.colRange(0, frame.width).clone();
+  return parts_->to_bgr(*parts_->frame);
 }
 
 VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_most) {
@@ -192,7 +152,7 @@ VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_m
     if (is_shown(container, *packet)) {
       ++found.frames;
       timed = timed && packet->pts != AV_NOPTS_VALUE;
-      if (timed) found.times.push_back(container_seconds(packet->pts, stream));
+      if (timed) found.times.push_back(ffmpeg::container_seconds(packet->pts, stream));
       found.whole = at_most < 0 || found.frames < at_most + kReordered;
     }
     av_packet_unref(packet.get());

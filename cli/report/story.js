@@ -117,7 +117,7 @@ function tellStory() {
 function headline() {
   const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.look(row)).filter((s) => s === state).length;
   const lost = rows("lost"), fallback = rows("fallback");
-  if (run.kind === "live") return `The run goes on: ${run.frames.count} of ${countOf(run.total, "frame")} so far.`;
+  if (run.kind === "live") return `The run goes on: ${run.total > 0 ? `${run.frames.count} of ${countOf(run.total, "frame")}` : countOf(run.frames.count, "frame")} so far.`;
   if (run.frames.count === 0) return "";
   if (run.metrics.tracked === 0) return "No frame was tracked. The list below says why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];

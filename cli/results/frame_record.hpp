@@ -2,6 +2,7 @@
 // What a run keeps of each frame, and of the whole: the material of every file that `sslam run` writes.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct RunOutcome {
   double wall_seconds = 0;         // of the whole run
   double final_pass_seconds = 0;   // of it, what followed the last frame
   int keyframes_not_made = 0;      // live: frames that mapping was too far behind for
+  std::size_t frames_dropped = 0;  // of a stream: they came while the tracker was busy
+  std::size_t stream_losses = 0;   // times that the stream broke and came back
   bool interrupted = false;
 };
 

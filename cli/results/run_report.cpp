@@ -117,6 +117,12 @@ io::Trajectory live_trajectory(const RunOutcome& outcome) {
   return live;
 }
 
+// Of all frames; of none, none.
+double share_tracked(const RunContext& context, const RunOutcome& outcome) {
+  const std::size_t total = context.dataset.frames.size();
+  return total == 0 ? 0 : static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total);
+}
+
 void write_top_view_file(const fs::path& path, const RunContext& context, const RunOutcome& outcome,
                          const std::optional<io::Evaluation>& evaluation) {
   if (outcome.trajectory.empty()) {
@@ -151,12 +157,15 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   const Json times = times_json(outcome);
   const std::size_t total = context.dataset.frames.size();
   std::printf("tracked          %zu of %zu frames (%.1f %%), %zu keyframes, %zu points, %zu lines\n",
-              outcome.trajectory.size(), total,
-              100.0 * static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total),
+              outcome.trajectory.size(), total, 100.0 * share_tracked(context, outcome),
               outcome.keyframes.size(), count_alive(outcome.map.points), count_alive(outcome.map.lines));
   std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
+  if (outcome.frames_dropped > 0)
+    std::printf("dropped          %zu frames that came while the tracker was busy\n", outcome.frames_dropped);
+  if (outcome.stream_losses > 0)
+    std::printf("stream           broke %zu times and came back\n", outcome.stream_losses);
   if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
     std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
                 outcome.frames.size());
@@ -215,8 +224,9 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   Json metrics = {{"frames", context.dataset.frames.size()},
                   {"tracked", outcome.trajectory.size()},
                   {"tracked_live", live.size()},
-                  {"share_tracked", static_cast<double>(outcome.trajectory.size()) /
-                                        static_cast<double>(context.dataset.frames.size())},
+                  {"share_tracked", share_tracked(context, outcome)},
+                  {"frames_dropped", outcome.frames_dropped},
+                  {"stream_losses", outcome.stream_losses},
                   {"interrupted", outcome.interrupted},
                   {"keyframes", outcome.keyframes.size()},
                   {"keyframes_not_made", outcome.keyframes_not_made},

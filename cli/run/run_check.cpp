@@ -7,7 +7,9 @@
 
 #include "cli/input/first_image.hpp"
 #include "cli/input/image_file.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
+#include "cli/stream/stream_name.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/system/parameters.hpp"
@@ -19,7 +21,7 @@ ParameterValue parse_override(const std::string& text) {
   const auto equals = text.find('=');
   const auto value =
       equals == std::string::npos ? std::nullopt : io::parse_number<double>(text.substr(equals + 1));
-  if (!value) throw Error("--set " + text + ": expected stage.parameter=number");
+  if (!value) throw UsageError("--set " + text + ": expected stage.parameter=number");
   return {text.substr(0, equals), *value};
 }
 
@@ -29,11 +31,13 @@ const Preset& choose_preset(const std::string& wanted) {
   try {
     return find_preset(wanted);
   } catch (const Error& error) {
-    throw Error(std::string("--preset ") + error.what());
+    throw UsageError(std::string("--preset ") + error.what());
   }
 }
 
 io::Dataset open_run_dataset(const RunSettings& settings) {
+  if (stream_named(settings.dataset))
+    throw Error(settings.dataset + ": is a stream, which nobody can run twice; sslam run takes it");
   io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
   if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, settings.slice.end);
   io::apply_slice(dataset, settings.slice);
@@ -45,12 +49,23 @@ CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& d
   return camera_for_images({settings.camera, settings.focal, settings.fov}, dataset);
 }
 
+cv::Size size_of_stream_camera(const RunSettings& settings) {
+  io::Dataset stream;
+  stream.layout = io::Layout::kStream;
+  const std::optional<CameraChoice> known = find_camera(settings.camera, stream);
+  return known ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
+}
+
+CameraChoice choose_stream_camera(const RunSettings& settings, const io::Dataset& dataset, cv::Size size) {
+  return choose_camera({settings.camera, settings.focal, settings.fov}, dataset, size.width, size.height);
+}
+
 void check_live(const RunSettings& settings, const Preset& preset) {
   if (!settings.live || preset.make_live != nullptr) return;
   std::string able;
   for (const Preset& p : all_presets())
     if (p.make_live != nullptr) io::add_to_list(able, p.name);
-  throw Error("--live: not with --preset " + settings.preset + "; use one of " + able);
+  throw UsageError("--live: not with --preset " + settings.preset + "; use one of " + able);
 }
 
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
@@ -67,7 +82,7 @@ std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vect
   for (const std::string& text : set) overrides.push_back(parse_override(text));
   ParameterTable table = all_parameters(preset);
   const ParameterAnswer answer = sslam::set_parameters(overrides, table);
-  if (!answer.ok()) throw Error("--set " + answer.message);
+  if (!answer.ok()) throw UsageError("--set " + answer.message);
   return overrides;
 }
 

@@ -3,6 +3,7 @@
 // `sslam batch` all of its runs. Everything here throws a std::exception with one line.
 #pragma once
 
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "cli/input/camera_choice.hpp"
@@ -15,11 +16,18 @@ namespace sslam::cli {
 
 [[nodiscard]] const Preset& choose_preset(const std::string& wanted);
 
-// The frames that the settings ask for.
+// The frames that the settings ask for, of anything but a stream.
 [[nodiscard]] io::Dataset open_run_dataset(const RunSettings& settings);
 
 // The camera of images of the first one's size. What is to be told of it stands in the answer.
 [[nodiscard]] CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset);
+
+// Of the images that a calibration of a stream is for; empty: there is none, or it does not say.
+[[nodiscard]] cv::Size size_of_stream_camera(const RunSettings& settings);
+
+// As choose_run_camera, of a stream with images of this size.
+[[nodiscard]] CameraChoice choose_stream_camera(const RunSettings& settings, const io::Dataset& dataset,
+                                                cv::Size size);
 
 // Whether the preset has what --live asks for.
 void check_live(const RunSettings& settings, const Preset& preset);

@@ -17,6 +17,7 @@ void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, 
     if (!input.warning.empty()) system.warn(input.warning);
     if (input.usable()) (void)system.track(input);
   }
+  stream.stop();  // a camera need not go on while the last frames are worked on
   WallTimer last;
   last.begin();
   if (system.finish() && !outcome.frames.empty()) outcome.frames.back().loop_closed = true;

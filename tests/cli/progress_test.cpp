@@ -198,7 +198,7 @@ TEST_CASE("a demo tells a program of both its parts") {
 }
 
 TEST_CASE("help fits the terminal, and the line of progress 80 columns elsewhere") {
-  for (const unsigned short columns : {std::uint16_t{60}, std::uint16_t{100}}) {
+  for (const unsigned short columns : {std::uint16_t{75}, std::uint16_t{100}}) {
     std::size_t longest = 0;
     for (const std::string& line : lines_of(on_terminal("run --help", columns)))
       longest = std::max(longest, line.find_last_not_of(" \r") + 1);

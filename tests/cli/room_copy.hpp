@@ -55,12 +55,17 @@ inline void write(const std::filesystem::path& file, const std::string& text) {
 }
 
 // Exit code 1 and one line that names what is wrong.
-inline void require_refused(const Outcome& outcome, const std::string& what) {
+inline void require_refused(const Outcome& outcome, const std::string& what, int code = 1) {
   INFO(outcome.text);
-  REQUIRE(outcome.code == 1);
+  REQUIRE(outcome.code == code);
   REQUIRE(outcome.text.find("sslam: error: ") == 0);
   REQUIRE(outcome.text.find(what) != std::string::npos);
   REQUIRE(outcome.text.find('\n') == outcome.text.size() - 1);
+}
+
+// The same for a wrong command line: exit code 2.
+inline void require_misused(const Outcome& outcome, const std::string& what) {
+  require_refused(outcome, what, 2);
 }
 
 }  // namespace sslam::testing

@@ -43,7 +43,7 @@ TEST_CASE("run --live tracks with mapping in a thread of its own") {
   REQUIRE(metrics["share_tracked"].get<double>() >= 0.9);
   REQUIRE(metrics["keyframes_not_made"].is_number_unsigned());
   REQUIRE(metrics["times"]["wall_seconds"].get<double>() > (kFrames - 1) / 30.0);  // as long as the recording
-  require_refused(copy.run("--live --preset paper"),
+  require_misused(copy.run("--live --preset paper"),
                   "--live: not with --preset paper; use one of structure, points, lines");
 }
 
@@ -366,22 +366,22 @@ TEST_CASE("run refuses what it cannot use with one line") {
   require_refused(run_program("run " + scratch("nowhere")), "nowhere: no such file or folder");
   fs::create_directories(scratch("empty"));
   require_refused(run_program("run " + scratch("empty")), "empty: the folder is empty");
-  require_refused(copy.run("--normals velvet"), "--normals velvet");
+  require_misused(copy.run("--normals velvet"), "--normals velvet");
   require_refused(copy.run("--normals onnx:" + (copy.folder / "camera.yaml").string()), "camera.yaml");
-  require_refused(copy.run("--preset velvet"), "--preset velvet");
-  require_refused(copy.run("--set keyframes.min_gap=many"), "--set keyframes.min_gap=many");
-  require_refused(copy.run("--set keyframes.min_gab=2"),
+  require_misused(copy.run("--preset velvet"), "--preset velvet");
+  require_misused(copy.run("--set keyframes.min_gap=many"), "--set keyframes.min_gap=many");
+  require_misused(copy.run("--set keyframes.min_gab=2"),
                   "--set keyframes.min_gab: no such parameter here; did you mean keyframes.min_gap?");
-  require_refused(copy.run("--preset features --set rotation.frames=2"), "no such parameter");
-  require_refused(copy.run("--set atlas.young_map=2.5"), "--set atlas.young_map=2.5: not a whole number");
-  require_refused(copy.run("--set atlas.young_map=1e10"), "out of range: 0 to 1e+06, in count");
-  require_refused(copy.run("--set keyframes.max_turn=-8"), "out of range: 0 to 180, in degrees");
-  require_refused(copy.run("--set keyframes.min_shared=1.4"),
+  require_misused(copy.run("--preset features --set rotation.frames=2"), "no such parameter");
+  require_misused(copy.run("--set atlas.young_map=2.5"), "--set atlas.young_map=2.5: not a whole number");
+  require_misused(copy.run("--set atlas.young_map=1e10"), "out of range: 0 to 1e+06, in count");
+  require_misused(copy.run("--set keyframes.max_turn=-8"), "out of range: 0 to 180, in degrees");
+  require_misused(copy.run("--set keyframes.min_shared=1.4"),
                   "--set keyframes.min_shared=1.4: out of range: 0 to 1, in share");
-  require_refused(copy.run("--set rotation.squareness=3"),
+  require_misused(copy.run("--set rotation.squareness=3"),
                   "--set rotation.squareness: 3 is not below the 1.5 of rotation.max_sigma: no rotation "
                   "would be trusted");
-  require_refused(copy.run("--set rotation.widest_kernel=1"),
+  require_misused(copy.run("--set rotation.widest_kernel=1"),
                   "--set rotation.narrowest_kernel: 2 is not below the 1 of rotation.widest_kernel");
   require_refused(copy.run("--start 1000"), "no frame from 1000");
   REQUIRE_FALSE(fs::exists(copy.out));  // none of these has begun to write

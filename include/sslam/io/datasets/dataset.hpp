@@ -30,13 +30,15 @@ enum class Layout {
   kIclNuim,
   kColourDepth,
   kImages,
-  kVideo
+  kVideo,
+  kStream
 };
 
 // Small: a long recording has many, and all of them are at hand as long as it runs. A std::filesystem::path
 // would keep its parts beside its text.
 struct FrameEntry {
-  std::int64_t index = 0;     // position in the whole sequence, before any slice; the frame number of a video
+  std::int64_t index =
+      0;  // position in the whole sequence, before any slice; the frame number of a video or a stream
   double stamp = 0;           // the dataset's own
   std::string image;          // path; the video itself for a video
   std::string depth;          // path; empty: none

@@ -67,7 +67,7 @@ inline constexpr std::array<FolderLayout, 9> kFolderLayouts{{
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.layout == layout) return known.name;
   }
-  return "video";
+  return layout == Layout::kStream ? "stream" : "video";
 }
 
 [[nodiscard]] inline std::string describe_folder_layouts() {

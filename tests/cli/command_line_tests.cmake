@@ -1,0 +1,23 @@
+# The command line as people type it: words that nobody knows, options before and behind arguments, help.
+foreach(options "--set;keyframes.max_turn=10" "-o;somewhere" "-v")
+  sslam_cli_test(NAME "run takes ${options} in front of its dataset" ARGS run ${options} nowhere CODE 1
+                 ERR "^sslam: error: nowhere: no such file or folder\n$")
+endforeach()
+sslam_cli_test(NAME "batch takes --against in front of its suite" ARGS batch --against earlier nowhere.toml CODE 1 ERR "nowhere.toml: ")
+# sslam_unknown_word(WORDS MESSAGE): exit code 2 and one line.
+function(sslam_unknown_word message)
+  string(JOIN " " typed ${ARGN})
+  sslam_cli_test(NAME "there is no sslam ${typed}" ARGS ${ARGN} CODE 2 ERR "^sslam: error: ${message} \\(see sslam --help\\)\n$")
+endfunction()
+sslam_unknown_word("'rnu' is not a command. did you mean 'run'\\?" rnu)
+sslam_unknown_word("'rnu' is not a command. did you mean 'run'\\?" rnu room --live)
+sslam_unknown_word("'rnu' is not a command. did you mean 'run'\\?" help rnu)
+sslam_unknown_word("'velvet' is not a command. known: run, eval, [^\n]*" velvet)
+sslam_unknown_word("'--vresion' is not an option of sslam. did you mean '--version'\\?" --vresion)
+sslam_unknown_word("'--pre-set' is not an option of sslam run. did you mean '--preset'\\?" run --pre-set paper room)
+sslam_unknown_word("'--pre-set' is not an option of sslam run. did you mean '--preset'\\?" run --pre-set=paper)
+sslam_unknown_word("'--velvet-curtain' is not an option of sslam run" run room --velvet-curtain)
+sslam_unknown_word("'rooms' is one word too many for sslam run" run room rooms)
+sslam_unknown_word("'--aganst' is not an option of sslam merge. did you mean '--against'\\?" batch merge a b --aganst c)
+sslam_cli_test(NAME "help of a command" ARGS help run OUT "\nInput:\n" "\nTracking:\n" "\nOutput:\n" "Examples:\n  sslam run " "-o,--out DIR")
+sslam_cli_test(NAME "help of everything" ARGS help OUT "Subcommands:\n +run +Track a sequence" "sslam help run")
