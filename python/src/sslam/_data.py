@@ -93,7 +93,7 @@ def open_dataset(
     end: Optional[int] = None,
     stride: int = 1,
 ) -> Dataset:
-    """Opens whatever `sslam run` takes: a folder in the layout of TUM RGB-D, ICL-NUIM or 7-Scenes, a folder or a glob of
+    """Opens whatever `sslam run` takes: a folder in a layout that it knows (docs/run.md), a folder or a glob of
     images, or a video.
 
     camera: a camera file or the name of a built-in calibration; else focal (pixels) or fov (degrees across); else the
