@@ -28,6 +28,7 @@ enum class Layout {
   kScanNet,
   kSevenScenes,
   kIclNuim,
+  kTransforms,
   kColourDepth,
   kImages,
   kVideo,

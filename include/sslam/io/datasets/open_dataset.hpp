@@ -15,6 +15,7 @@
 #include "sslam/io/datasets/nearest_layout.hpp"
 #include "sslam/io/datasets/numbered_poses.hpp"
 #include "sslam/io/datasets/seven_scenes.hpp"
+#include "sslam/io/datasets/transforms_folder.hpp"
 #include "sslam/io/datasets/tum.hpp"
 #include "sslam/io/datasets/video.hpp"
 #include "sslam/io/files/files.hpp"
@@ -36,7 +37,7 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 9> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 10> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
@@ -50,6 +51,10 @@ inline constexpr std::array<FolderLayout, 9> kFolderLayouts{{
     {Layout::kScanNet, "ScanNet", "color/N.jpg with pose/ and intrinsic/", is_scannet,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_scannet(root, options.frame_rate);
+     }},
+    {Layout::kTransforms, "transforms.json", "transforms.json with file_path", is_transforms_folder,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_transforms_folder(root, options.frame_rate);
      }},
     {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", has_numbered_images,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_icl_nuim(root); }},

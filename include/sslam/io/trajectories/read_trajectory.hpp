@@ -20,6 +20,7 @@
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/trajectories/pose_row.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
+#include "sslam/io/trajectories/transforms.hpp"
 
 namespace sslam::io {
 
@@ -125,11 +126,46 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   return times;
 }
 
+// transforms.json: without timestamps its files in their natural order have the times, or are counted.
+[[nodiscard]] inline PoseFile read_transforms_poses(const std::filesystem::path& path, Warnings& warnings,
+                                                    std::filesystem::path times) {
+  const Transforms transforms = read_transforms(path, warnings);
+  PoseFile result;
+  result.no_pose = transforms.no_pose;
+  std::vector<double> clock;
+  if (!transforms.stamped) {
+    if (times.empty()) times = trajectory_detail::find_times(path);
+    if (!times.empty()) clock = read_times(times);
+    result.counted = clock.empty();
+    if (!result.counted && clock.size() != transforms.frames.size())
+      throw Error(times.string() + ": has " + std::to_string(clock.size()) + " times for the " +
+                  std::to_string(transforms.frames.size()) + " frames of " + path.string() +
+                  "; expected one a frame");
+  }
+  for (std::size_t i = 0; i < transforms.frames.size(); ++i) {
+    const TransformsFrame& frame = transforms.frames[i];
+    const double place = clock.empty() ? static_cast<double>(i) : clock[i];
+    if (frame.world_from_cam)
+      result.trajectory.push_back({transforms.stamped ? frame.stamp : place, *frame.world_from_cam});
+  }
+  if (result.trajectory.empty())
+    throw Error(path.string() + ": holds no pose; expected a transform_matrix in its frames");
+  if (result.no_pose > 0) warnings.push_back(no_pose_note(path, result.no_pose, transforms.frames.size()));
+  const StampUnit unit = stamp_unit_of(stamps_of(result.trajectory), StampsOf::kOther);
+  if (!result.counted && !unit.is_seconds()) {
+    for (StampedPose& pose : result.trajectory) pose.stamp /= unit.per_second;
+    warnings.push_back(path.string() + ": " + unit_note(unit));
+  }
+  order_by_stamp(result.trajectory, path, warnings);
+  return result;
+}
+
 // Throws Error when the file cannot be read or holds no trajectory; adds to warnings what was skipped or
 // changed. `times`: of a file without stamps; empty: looked for beside it.
 [[nodiscard]] inline PoseFile read_pose_file(const std::filesystem::path& path, Warnings& warnings,
                                              std::filesystem::path times = {}) {
   const std::string text = read_plain_text(path);
+  if (is_transforms_text(text)) return read_transforms_poses(path, warnings, std::move(times));
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty())

@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "sslam/core/error.hpp"
+#include "sslam/core/text_tree.hpp"
 #include "sslam/opencv/camera/camera_rows.hpp"
 #include "sslam/opencv/camera/camera_trees.hpp"
-#include "sslam/opencv/camera/text_tree.hpp"
 
 namespace sslam {
 namespace detail {

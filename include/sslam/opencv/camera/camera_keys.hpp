@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sslam/core/error.hpp"
+#include "sslam/core/text_node.hpp"
 #include "sslam/geometry/camera.hpp"
-#include "sslam/opencv/camera/text_node.hpp"
 
 namespace sslam {
 

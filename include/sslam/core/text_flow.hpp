@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "sslam/core/error.hpp"
-#include "sslam/opencv/camera/text_node.hpp"
+#include "sslam/core/text_node.hpp"
 
 namespace sslam {
 

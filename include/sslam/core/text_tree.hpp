@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sslam/opencv/camera/text_flow.hpp"
+#include "sslam/core/text_flow.hpp"
 
 namespace sslam {
 
