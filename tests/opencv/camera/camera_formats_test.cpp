@@ -68,20 +68,15 @@ TEST_CASE("OpenCV's FileStorage, as YAML and as XML") {
       kWritten, kWrittenLens, 640, 480);
 }
 
-TEST_CASE("XML that is nested too deep is refused before it is parsed") {
-  std::string open, close;
-  for (int i = 0; i < 200'000; ++i) {
-    open += "<a>";
-    close += "</a>";
+TEST_CASE(
+    "XML with elements in elements without end is refused before it is parsed, whatever hides their ends") {
+  const std::string head = "<?xml version=\"1.0\"?>\n<opencv_storage>\n";
+  // Closing tags that are none: OpenCV takes the last comment to end at the second -->.
+  for (const char* part : {"<a>", "<a><!-- </a> -->", "<a b='</a>'>", "<a><!--></a>-->"}) {
+    std::string text = head;
+    for (int i = 0; i < 100'000; ++i) text += part;
+    check_refused(text, "has more than 4000 XML elements");
   }
-  const std::string head = "<?xml version=\"1.0\"?>\n";
-  check_refused(head + "<opencv_storage>" + open + close + "</opencv_storage>", "nested too deep");
-  check_refused(head + open, "nested too deep");
-  const std::string flat = "<a b='>'><!-- <c><c> --><d e=\"/>\"/><d><e/></d></a>";
-  CHECK(detail::xml_depth(head + flat) == 2);
-  std::string hidden;  // closing tags that are none
-  for (int i = 0; i < 50; ++i) hidden += "<a b='</a>'><!-- </a> -->";
-  CHECK(detail::xml_depth(head + hidden) == 50);
 }
 
 TEST_CASE("A key in quotes that spans lines gives a message of one line") {
