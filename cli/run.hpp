@@ -17,11 +17,19 @@ inline constexpr const char* kNormalsMeaning =
     "onnx:FILE; default onnx where that network is installed, else none (none also for presets without a "
     "Manhattan world)";
 
+// What becomes of the calibration.
+enum class CalibrationMode {
+  kFixed,   // it is taken as it is
+  kRefine,  // where the map contradicts it, the run begins again with the camera that was found
+  kFind,    // it is a guess, and the camera is found before the run begins
+};
+
 struct RunSettings {
   std::string dataset;
   std::string camera;   // file or name; empty: from the dataset
   double focal = 0;     // pixels, for a camera without calibration; 0: not given
   double fov = 0;       // the same as degrees across
+  CalibrationMode calibration = CalibrationMode::kRefine;
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all
   std::string preset = "structure";

@@ -35,6 +35,7 @@ struct CameraChoice {
   std::string source;       // for the report: a path or a name
   std::vector<std::string> notes, warnings;
   bool assumed = false;  // nobody knows this camera
+  double focal_sigma = 0.05;  // how far the focal length may be off, as a part of it
 };
 
 inline void print_notes(const CameraChoice& choice) {
@@ -95,10 +96,15 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
   return std::nullopt;
 }
 
+// Standard deviations of a focal length that nobody has calibrated, as a part of it: said by a lens's label,
+// or by nothing.
+inline constexpr double kRoughFocal = 0.1, kUnknownFocal = 0.4;
+
 // Square pixels, the principal point in the middle, no distortion.
-[[nodiscard]] inline CameraChoice plain_camera(double focal, int width, int height,
-                                               const std::string& source) {
+[[nodiscard]] inline CameraChoice plain_camera(double focal, int width, int height, const std::string& source,
+                                               double focal_sigma) {
   CameraChoice choice;
+  choice.focal_sigma = focal_sigma;
   choice.camera = {{focal, focal, 0.5 * (width - 1), 0.5 * (height - 1)}, {}, width, height};
   choice.source = source;
   return choice;
@@ -113,7 +119,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
   char text[320];
   const double written = dataset.frames.empty() ? 0 : exif_focal(dataset.frames.front().image, width, height);
   if (written > 0) {
-    CameraChoice choice = plain_camera(written, width, height, "the images' Exif");
+    CameraChoice choice = plain_camera(written, width, height, "the images' Exif", kRoughFocal);
     std::snprintf(
         text, sizeof text,
         "the camera is not calibrated: the images' Exif gives a focal length of %.0f pixels; distortion is "
@@ -124,7 +130,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
   }
   constexpr double kView = 60;  // degrees
   const double focal = focal_of_view(kView, std::max(width, height));
-  CameraChoice choice = plain_camera(focal, width, height, "assumed: 60 degrees");
+  CameraChoice choice = plain_camera(focal, width, height, "assumed: 60 degrees", kUnknownFocal);
   choice.assumed = true;
   std::snprintf(
       text, sizeof text,
@@ -139,8 +145,8 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
 // What --focal or --fov make of images of this size; nothing where neither is given.
 [[nodiscard]] inline std::optional<CameraChoice> wished_camera(const CameraWish& wish, int width,
                                                                int height) {
-  if (wish.focal > 0) return plain_camera(wish.focal, width, height, "--focal");
-  if (wish.fov > 0) return plain_camera(focal_of_view(wish.fov, width), width, height, "--fov");
+  if (wish.focal > 0) return plain_camera(wish.focal, width, height, "--focal", kRoughFocal);
+  if (wish.fov > 0) return plain_camera(focal_of_view(wish.fov, width), width, height, "--fov", kRoughFocal);
   return std::nullopt;
 }
 

@@ -43,7 +43,7 @@ class ImageCamera {
   }
 
   [[nodiscard]] Camera<double> assumed(int width, int height) const {
-    return plain_camera(focal_per_width_ * width, width, height, {}).camera;
+    return plain_camera(focal_per_width_ * width, width, height, {}, kUnknownFocal).camera;
   }
 
   CameraWish wish_;

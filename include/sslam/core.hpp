@@ -73,6 +73,7 @@
 #include "sslam/map/map_list.hpp"
 #include "sslam/map/plane_extent.hpp"
 #include "sslam/map/plane_ties.hpp"
+#include "sslam/residual/lens_reprojection.hpp"
 #include "sslam/residual/line_on_plane.hpp"
 #include "sslam/residual/line_reprojection.hpp"
 #include "sslam/residual/loss.hpp"

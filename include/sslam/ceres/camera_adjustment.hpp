@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Self-calibration: the camera that a map's observations ask for. Keyframes, points and lines are adjusted
+// with the camera as one more unknown; the map itself stays as it is.
+#pragma once
+
+#include <ceres/loss_function.h>
+#include <ceres/ordered_groups.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+
+#include "sslam/ceres/bundle_blocks.hpp"
+#include "sslam/ceres/camera_estimate.hpp"
+#include "sslam/ceres/lens_costs.hpp"
+#include "sslam/ceres/marginal_covariance.hpp"
+#include "sslam/map/bundle_window.hpp"
+
+namespace sslam {
+
+struct CameraAdjustmentOptions {
+  CameraPrior prior;
+  BundleLosses<double> losses;
+  std::size_t max_keyframes = 60;  // the first ones of the map: more tell little that is new
+  int max_iterations = 20;
+  double function_tolerance = 1e-4;  // relative decrease of the cost below which it stops
+};
+
+class CameraAdjustment {
+ public:
+  CameraAdjustmentOptions options;
+
+  // `camera` is the one that the map's features were undistorted with.
+  [[nodiscard]] CameraEstimate estimate(const Map<double>& map, const Camera<double>& camera) {
+    BundleWindowOptions<double> window;
+    // Both were found with the given camera, and would speak for it.
+    window.planes = window.manhattan = false;
+    window_.gather_first(map, options.max_keyframes, window);
+    return estimate(window_.graph, camera);
+  }
+  [[nodiscard]] CameraEstimate estimate(const BundleGraph<double>& graph, const Camera<double>& camera);
+
+ private:
+  void add_landmarks(const BundleGraph<double>& graph, const Camera<double>& camera,
+                     ceres::LossFunction& point_loss, ceres::LossFunction& line_loss,
+                     ceres::Problem& problem);
+  void add_views(const BundleGraph<double>& graph, ceres::Problem& problem);
+  template <class Cost, class Edge, class Observed>
+  bool add(std::deque<Cost>& costs, const Camera<double>& camera, const Edge& edge, const Observed& raw,
+           ceres::LossFunction& loss, double* landmark, ceres::Problem& problem);
+  [[nodiscard]] ceres::Solver::Options solver_options() const;
+
+  BundleWindow<double> window_;
+  BundleBlocks blocks_;
+  LensBlock lens_{};
+  std::deque<LensPointCost> point_costs_;  // Ceres' cost functions cannot move
+  std::deque<LensLineCost> line_costs_;
+  std::deque<ScaleTieCost> scale_costs_;
+  PoseManifold pose_manifold_;
+  LineManifold line_manifold_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+  int observations_ = 0;
+};
+
+inline CameraEstimate CameraAdjustment::estimate(const BundleGraph<double>& graph,
+                                                 const Camera<double>& camera) {
+  CameraEstimate out;
+  out.camera = camera;
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  ceres::CauchyLoss point_loss(options.losses.point), line_loss(options.losses.line);
+  LensPriorCost prior(options.prior.sigma(camera));
+  blocks_.load(graph);
+  lens_.fill(0);
+  observations_ = 0;
+  ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
+  problem.AddResidualBlock(&prior, nullptr, lens_.data());
+  ordering_->AddElementToGroup(lens_.data(), 1);
+  add_landmarks(graph, camera, point_loss, line_loss, problem);
+  add_views(graph, problem);
+  out.observations = observations_;
+  if (observations_ > 0) {
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options(), &problem, &summary);
+    const LensChange<double> change(lens_.data());
+    const bool solved = summary.IsSolutionUsable() && blocks_.finite() && change.allFinite() &&
+                        marginal_covariance(problem, lens_.data(), out.covariance);
+    out.status = solved ? Status::kOk : Status::kDegenerate;
+    if (solved) {
+      out.change = change;
+      out.camera = changed(camera, change);
+      // By how much the cost would rise if the camera were held and all else adjusted: to second order.
+      const double rise = 0.5 * change.dot(out.covariance.ldlt().solve(change));
+      out.gain = rise / std::max(rise + summary.final_cost, 1e-12);
+    }
+  }
+  point_costs_.clear();
+  line_costs_.clear();
+  scale_costs_.clear();
+  ordering_.reset();
+  return out;
+}
+
+inline ceres::Solver::Options CameraAdjustment::solver_options() const {
+  ceres::Solver::Options o;
+  o.linear_solver_type = ceres::SPARSE_SCHUR;
+  o.linear_solver_ordering = ordering_;
+  o.max_num_iterations = options.max_iterations;
+  o.function_tolerance = options.function_tolerance;
+  o.num_threads = 1;
+  o.logging_type = ceres::SILENT;
+  return o;
+}
+
+// An observation that cannot be evaluated at the start would fail the whole problem: it is left out.
+template <class Cost, class Edge, class Observed>
+bool CameraAdjustment::add(std::deque<Cost>& costs, const Camera<double>& camera, const Edge& edge,
+                           const Observed& raw, ceres::LossFunction& loss, double* landmark,
+                           ceres::Problem& problem) {
+  double* const pose = blocks_.poses[static_cast<std::size_t>(edge.view)].data();
+  double residual[2];
+  const double* const at[] = {lens_.data(), pose, landmark};
+  costs.emplace_back(camera, raw, edge.inverse_sigma);
+  if (!costs.back().Evaluate(at, residual, nullptr) || !std::isfinite(residual[0]) ||
+      !std::isfinite(residual[1]))
+    return false;
+  problem.AddResidualBlock(&costs.back(), &loss, lens_.data(), pose, landmark);
+  ++observations_;
+  return true;
+}
+
+inline void CameraAdjustment::add_landmarks(const BundleGraph<double>& graph, const Camera<double>& camera,
+                                            ceres::LossFunction& point_loss, ceres::LossFunction& line_loss,
+                                            ceres::Problem& problem) {
+  for (std::size_t i = 0; i < graph.points.size(); ++i) {
+    double* const block = blocks_.points[i].data();
+    bool used = false;
+    for (auto e = graph.points[i].first_edge; e < graph.points[i].last_edge; ++e) {
+      const PointEdge<double>& edge = graph.point_edges[static_cast<std::size_t>(e)];
+      used |= add(point_costs_, camera, edge, camera.distort_pixel(edge.pixel), point_loss, block, problem);
+    }
+    if (used) ordering_->AddElementToGroup(block, 0);
+  }
+  for (std::size_t i = 0; i < graph.lines.size(); ++i) {
+    double* const block = blocks_.lines[i].data();
+    bool used = false;
+    for (auto e = graph.lines[i].first_edge; e < graph.lines[i].last_edge; ++e) {
+      const LineEdge<double>& edge = graph.line_edges[static_cast<std::size_t>(e)];
+      const Segment2<double> raw{camera.distort_pixel(edge.segment.start),
+                                 camera.distort_pixel(edge.segment.end)};
+      used |= add(line_costs_, camera, edge, raw, line_loss, block, problem);
+    }
+    if (!used) continue;
+    problem.SetManifold(block, &line_manifold_);
+    ordering_->AddElementToGroup(block, 0);
+  }
+}
+
+inline void CameraAdjustment::add_views(const BundleGraph<double>& graph, ceres::Problem& problem) {
+  for (std::size_t v = 0; v < graph.views.size(); ++v) {
+    double* const block = blocks_.poses[v].data();
+    if (graph.scale && graph.scale->free == static_cast<std::int32_t>(v)) {
+      const auto held = static_cast<std::size_t>(graph.scale->held);
+      scale_costs_.emplace_back(graph.views[held].cam_from_world.inverse().translation, graph.scale->distance,
+                                options.losses.scale_sigma);
+      problem.AddResidualBlock(&scale_costs_.back(), nullptr, block);
+    }
+    if (!problem.HasParameterBlock(block)) continue;
+    ordering_->AddElementToGroup(block, 1);
+    if (graph.views[v].hold == Hold::kNothing)
+      problem.SetManifold(block, &pose_manifold_);
+    else
+      problem.SetParameterBlockConstant(block);
+  }
+}
+
+}  // namespace sslam
