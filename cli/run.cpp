@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -19,7 +20,9 @@
 #include "cli/results/run_folder.hpp"
 #include "cli/results/run_report.hpp"
 #include "cli/run/run_check.hpp"
+#include "cli/run/self_calibration.hpp"
 #include "cli/run/track_sequence.hpp"
+#include "cli/shell/choice_option.hpp"
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/help_formatter.hpp"
@@ -69,6 +72,69 @@ class ProgressObserver : public Observer {
   Progress& progress_;
 };
 
+// One way through the dataset with one camera: the system, and what looks on.
+class Pass {
+ public:
+  Pass(const RunSettings& settings, const io::Dataset& dataset, const CameraChoice& camera, Settings wanted)
+      : system(std::move(wanted)),
+        context{settings, dataset, camera.source, camera.camera, system.camera()},
+        recorder(system.camera(), dataset.frames.size(), settings.report ? kMaxViews : 0),
+        progress_(dataset.frames.size(), settings.verbosity, "run"),
+        progress_observer_(progress_) {
+    system.add_observer(recorder);
+    if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, system.camera()));
+    if (settings.view) system.add_observer(live.emplace(context, recorder.colours).observer());
+    system.add_observer(progress_observer_);
+  }
+
+  void go_on_in(Map<double> known) {
+    known_keyframes_ = known.keyframes.size();
+    recorder.colours.note(known, load_map_colours(context.settings.map, known));
+    system.resume(std::move(known));
+  }
+
+  // Frames of a stream join the dataset.
+  void track(io::Dataset& dataset, FrameStreamOptions options) {
+    const bool paced = context.settings.live && !(options.source && options.source->sets_the_pace());
+    options.pace = paced ? dataset.seconds_per_stamp : 0;
+    FrameStream stream(dataset, system, std::move(options));
+    track_sequence(system, stream, recorder, known_keyframes_);
+    progress_.finish();
+  }
+
+  System system;
+  RunContext context;
+  RunRecorder recorder;
+  std::optional<OverlayVideo> video;
+  std::optional<LiveView> live;
+
+ private:
+  std::size_t known_keyframes_ = 0;
+  Progress progress_;
+  ProgressObserver progress_observer_;
+};
+
+Settings system_settings(const RunSettings& settings, const CameraChoice& camera,
+                         const std::vector<ParameterValue>& parameters) {
+  Settings wanted;
+  wanted.preset = settings.preset;
+  wanted.parameters = parameters;
+  wanted.camera = camera.camera;
+  wanted.depth_factor = camera.depth_factor;
+  wanted.normals = choose_normals(settings.normals);
+  wanted.seed = settings.seed;
+  wanted.live = settings.live;
+  wanted.longest_side = settings.longest_side;
+  wanted.final_pass = settings.final_pass;
+  wanted.keep_pictures = true;  // the map's colours come from them
+  return wanted;
+}
+
+// What a warning of a camera ends with: where to read the one that was found.
+std::string found_at(const RunSettings& settings) {
+  return (std::filesystem::path(settings.out) / kCameraFoundFile).string();
+}
+
 }  // namespace
 
 void run(RunSettings settings) {
@@ -79,9 +145,7 @@ void run(RunSettings settings) {
     settings.normals = chosen.source;
     if (!chosen.note.empty()) print_note(chosen.note);
   }
-  Settings wanted;
-  wanted.preset = settings.preset;
-  wanted.parameters = set_parameters(preset, settings.set);
+  const std::vector<ParameterValue> parameters = set_parameters(preset, settings.set);
   Map<double> known;
   if (!settings.map.empty()) known = load_run_map(settings.map);
   std::optional<Recording> recording;
@@ -105,67 +169,63 @@ void run(RunSettings settings) {
   check_normals(settings, dataset, camera.depth_factor);
   MaskSource masks;
   if (!settings.mask.empty()) masks = MaskSource(settings.mask, {camera.camera.width, camera.camera.height});
-  wanted.camera = camera.camera;
-  wanted.depth_factor = camera.depth_factor;
-  wanted.normals = choose_normals(settings.normals);
-  wanted.seed = settings.seed;
-  wanted.live = settings.live;
-  wanted.longest_side = settings.longest_side;
-  wanted.final_pass = settings.final_pass;
-  wanted.keep_pictures = true;  // the map's colours come from them
   io::prepare_output_folder(settings.out);
   const FolderLock lock = FolderLock::demand(settings.out);
   if (!settings.record.empty()) {
     recording.emplace(settings.record);
     if (!camera.assumed) recording->keep_camera(camera.camera);
   }
-
-  System system(std::move(wanted));
-  const std::size_t frames = dataset.frames.size(), known_keyframes = known.keyframes.size();
-  RunRecorder recorder(system.camera(), frames, settings.report ? kMaxViews : 0);
-  if (!known.empty()) {
-    recorder.colours.note(known, load_map_colours(settings.map, known));
-    system.resume(std::move(known));
-  }
-  system.add_observer(recorder);
-  std::optional<OverlayVideo> video;
-  if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, system.camera()));
-  const RunContext context{settings, dataset, camera.source, camera.camera, system.camera()};
-  std::optional<LiveView> live;
-  if (settings.view) system.add_observer(live.emplace(context, recorder.colours).observer());
-  Progress progress(frames, settings.verbosity, "run");
-  ProgressObserver progress_observer(progress);
-  system.add_observer(progress_observer);
   if (!interrupt) interrupt.emplace();
-  const bool paced = settings.live && !(source && source->sets_the_pace());
-  FrameStream stream(dataset, system,
-                     {paced ? dataset.seconds_per_stamp : 0, masks, source ? &*source : nullptr,
-                      recording ? &*recording : nullptr});
-  track_sequence(system, stream, recorder, known_keyframes);
-  progress.finish();
+  const FrameStreamOptions stream{0, masks, source ? &*source : nullptr, recording ? &*recording : nullptr};
 
-  RunOutcome& outcome = recorder.outcome;
+  // A map that is gone on in was made with its own camera.
+  const bool examines = settings.calibration != CalibrationMode::kFixed && known.empty();
+  const bool repeats = examines && !settings.live && !settings.view && !source && !recording;
+  SelfCalibration calibration(dataset, masks, camera, settings.calibration == CalibrationMode::kFind);
+  if (repeats && calibration.is_guess())
+    calibration.find(system_settings(settings, camera, parameters), camera, found_at(settings));
+  auto pass =
+      std::make_unique<Pass>(settings, dataset, camera, system_settings(settings, camera, parameters));
+  if (!known.empty()) pass->go_on_in(std::move(known));
+  pass->track(dataset, stream);
+  if (examines && !pass->recorder.outcome.interrupted) {
+    calibration.examine(pass->system);
+    if (repeats && !calibration.is_guess() && calibration.contradicts()) {
+      pass.reset();
+      calibration.find(system_settings(settings, camera, parameters), camera, found_at(settings));
+      pass = std::make_unique<Pass>(settings, dataset, camera, system_settings(settings, camera, parameters));
+      pass->track(dataset, stream);
+      calibration.examine(pass->system);
+    } else if (calibration.contradicts()) {
+      pass->system.warn(calibration.advice(found_at(settings)));
+    }
+    pass->recorder.outcome.calibration = calibration.record();
+  }
+
+  RunOutcome& outcome = pass->recorder.outcome;
   if (source) note_stream(*source, outcome);
   warn_of_useless_normals(settings.normals, outcome);
+  outcome.warnings.insert(outcome.warnings.begin(), calibration.warnings().begin(),
+                          calibration.warnings().end());
   print_warnings(outcome.warnings);
   ResultSet results(settings.out);
-  write_run(context, outcome, results.stage());
+  write_run(pass->context, outcome, results.stage());
   const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();
   const std::string last_reason = last_reason_of(outcome);
   outcome = {};  // the report is made from the files, and needs the room
   std::string page;
-  if (settings.report || live)
+  if (settings.report || pass->live)
     page = report_of(results.stage(), folder_name(std::filesystem::path(settings.out)));
   if (settings.report) write_report(results.stage(), page);
   results.commit(kOptionalFiles);
   std::printf("written to       %s\n", settings.out.c_str());
-  if (video) video->commit();
+  if (pass->video) pass->video->commit();
   if (interrupted || Interrupt::asked()) {
     print_warning("interrupted; what had been computed was written");
     throw Stop{ExitCode::kInterrupted};
   }
   if (!tracked) print_error(settings.dataset + ": no frame was tracked; last reason: " + last_reason);
-  if (live) live->show(std::move(page));
+  if (pass->live) pass->live->show(std::move(page));
   if (!tracked) throw Stop{ExitCode::kFailed};
 }
 
@@ -180,6 +240,14 @@ void add_run_command(CLI::App& app) {
               std::string(kStreamKinds))
       ->required();
   add_camera_options(*command, s->camera, s->focal, s->fov);
+  static const std::map<std::string, CalibrationMode> kCalibrations{{"fixed", CalibrationMode::kFixed},
+                                                                    {"refine", CalibrationMode::kRefine},
+                                                                    {"find", CalibrationMode::kFind}};
+  add_choice(
+      *command, "--calibration", s->calibration, kCalibrations,
+      "fixed: as it is given; refine: where the images contradict it, track them again with the camera "
+      "that was found; find: it is a guess, so find the camera first, as is done without a calibration; "
+      "default refine");
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   command
       ->add_option("--longest-side", s->longest_side,

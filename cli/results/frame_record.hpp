@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/results/calibration_record.hpp"
 #include "cli/results/map_colours.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
@@ -35,6 +37,7 @@ struct RunOutcome {
   std::size_t frames_dropped = 0;  // of a stream: they came while the tracker was busy
   std::size_t stream_losses = 0;   // times that the stream broke and came back
   bool interrupted = false;
+  std::optional<CalibrationRecord> calibration;  // nothing where it was not to be looked at
 };
 
 }  // namespace sslam::cli

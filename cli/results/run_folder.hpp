@@ -20,9 +20,11 @@ inline constexpr const char* kTruthFile = "groundtruth.txt";
 inline constexpr const char* kViewFile = "views.bin";
 inline constexpr const char* kColourFile = "colours.bin";  // of the map beside it
 inline constexpr const char* kReportFile = "report.html";
+inline constexpr const char* kCameraFoundFile = "camera_found.yaml";
 
 // Those that a run need not write.
-inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile, kTruthFile, kViewFile, kReportFile};
+inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile, kTruthFile, kViewFile, kReportFile,
+                                           kCameraFoundFile};
 
 struct RunFolder {
   std::string name;  // of the folder, for people

@@ -8,6 +8,7 @@
 #include <opencv2/core/version.hpp>
 #include <optional>
 
+#include "cli/input/camera_yaml.hpp"
 #include "cli/results/eval_report.hpp"
 #include "cli/results/frame_table.hpp"
 #include "cli/results/map_figures.hpp"
@@ -19,6 +20,7 @@
 #include "cli/shell/messages.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/files/csv_writer.hpp"
+#include "sslam/io/files/output_file.hpp"
 #include "sslam/io/maps/map_file.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 #include "sslam/io/plots/svg_plot.hpp"
@@ -152,6 +154,18 @@ Json normal_faults_json(const RunOutcome& outcome) {
   return faults;
 }
 
+// Where it is another camera than the given one: that of the run, or what its map asks for.
+void write_found_camera(const fs::path& path, const RunContext& context, const CalibrationRecord& record) {
+  if (!record.replaced && record.last.verdict != CameraVerdict::kDiffers) return;
+  CameraFile file;
+  file.camera = record.replaced ? context.camera : record.last.camera;
+  file.depth_factor = record.depth_factor;
+  file.frame_rate = record.frame_rate;
+  io::OutputFile out(path);
+  out.stream() << camera_yaml(file, "# found by sslam run, from the images\n");
+  out.commit();
+}
+
 void print_summary(const RunContext& context, const RunOutcome& outcome,
                    const std::optional<io::Evaluation>& evaluation) {
   const Json times = times_json(outcome);
@@ -179,6 +193,8 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
     std::printf(
         "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
         outcome.apart.maps, outcome.apart.frames);
+  if (outcome.calibration && outcome.calibration->last.verdict != CameraVerdict::kOpen)
+    std::printf("camera           by the map: %s\n", camera_text(outcome.calibration->last.camera).c_str());
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
 }
 
@@ -247,6 +263,10 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
   if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);
   metrics["warnings"] = outcome.warnings;
+  if (outcome.calibration) {
+    metrics["calibration"] = calibration_json(*outcome.calibration);
+    write_found_camera(out / kCameraFoundFile, context, *outcome.calibration);
+  }
   Json settings = settings_json(context), parameters;
   for (const Parameter& p : outcome.parameters) parameters[p.name] = p.value;
   settings["parameters"] = parameters;

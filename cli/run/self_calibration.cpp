@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <limits>
 #include <utility>
 
 #include "cli/input/frame_stream.hpp"
 #include "cli/shell/interrupt.hpp"
+#include "cli/shell/messages.hpp"
 #include "sslam/ceres/camera_adjustment.hpp"
 #include "sslam/geometry/camera_check.hpp"
 
@@ -24,10 +23,10 @@ std::size_t count_keyframes(const Map<double>& map) {
 constexpr double kMinGain = 0.02;
 
 // One round: as much of the dataset as it takes.
-CameraFinding probe(const io::Dataset& dataset, Settings settings, const MaskSource& masks,
+CameraFinding probe(io::Dataset& dataset, Settings settings, const MaskSource& masks,
                     const CameraPrior& prior) {
   System system(std::move(settings));
-  FrameStream stream(dataset, system, 0, masks);
+  FrameStream stream(dataset, system, {0, masks, nullptr, nullptr});
   ExtractedFrame input;
   constexpr std::array<std::size_t, 3> kEnough{20, 40, 80};  // keyframes at which the map is asked
   const auto* next = kEnough.begin();
@@ -64,8 +63,8 @@ CameraFinding examine_camera(const System& system, const CameraPrior& prior, dou
   return found;
 }
 
-CameraFinding find_camera(const io::Dataset& dataset, const Settings& settings, const MaskSource& masks,
-                          const CameraPrior& prior) {
+CameraFinding find_camera_by_tracking(io::Dataset& dataset, const Settings& settings, const MaskSource& masks,
+                                      const CameraPrior& prior) {
   Settings wanted = settings;
   wanted.normals = {};
   wanted.final_pass = wanted.keep_pictures = wanted.live = false;
@@ -82,12 +81,40 @@ CameraFinding find_camera(const io::Dataset& dataset, const Settings& settings, 
   return best;
 }
 
-std::string camera_text(const Camera<double>& camera) {
-  char text[160];
-  std::snprintf(text, sizeof text, "focal length %.1f pixels, centre (%.1f, %.1f), k1 %.4f, k2 %.4f",
-                camera.pinhole.fx, camera.pinhole.cx, camera.pinhole.cy, camera.distortion.k1,
-                camera.distortion.k2);
-  return text;
+SelfCalibration::SelfCalibration(io::Dataset& dataset, const MaskSource& masks, const CameraChoice& camera,
+                                 bool guess)
+    : dataset_(dataset), masks_(masks), source_(camera.source) {
+  prior_.focal = guess ? std::max(camera.focal_sigma, kUnknownFocal) : camera.focal_sigma;
+  guess_ = prior_.focal > CameraPrior().focal;
+  record_.given = camera.camera;
+  record_.depth_factor = camera.depth_factor;
+  record_.frame_rate = camera.frame_rate;
+}
+
+void SelfCalibration::find(Settings settings, CameraChoice& camera, const std::string& where) {
+  if (contradicts()) settings.camera = record_.last.camera;  // a better start than the given one
+  const CameraFinding found = find_camera_by_tracking(dataset_, settings, masks_, prior_);
+  if (found.verdict == CameraVerdict::kOpen && !contradicts()) {
+    if (!Interrupt::asked())
+      warnings_.push_back("the images leave the camera open (does it only move straight on?): " + source_ +
+                          " stands");
+    return;
+  }
+  camera.camera = found.verdict == CameraVerdict::kOpen ? record_.last.camera : found.camera;
+  camera.source = "found (" + source_ + ")";
+  record_.replaced = true;
+  const std::string text = camera_text(camera.camera) + "; " + where + " has it";
+  if (guess_)
+    print_note("the camera was found from the images: " + text);
+  else
+    warnings_.push_back(source_ + ": the images contradict this calibration (" + camera_text(record_.given) +
+                        "); they were tracked with the camera that was found: " + text +
+                        " (--calibration fixed keeps the given one)");
+}
+
+std::string SelfCalibration::advice(const std::string& where) const {
+  return source_ + ": the images contradict this calibration (" + camera_text(record_.given) +
+         "); their own is " + camera_text(record_.last.camera) + "; track them again with --camera " + where;
 }
 
 }  // namespace sslam::cli

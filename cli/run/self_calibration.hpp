@@ -4,21 +4,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "cli/input/camera_choice.hpp"
 #include "cli/input/mask_source.hpp"
-#include "cli/run.hpp"
-#include "sslam/ceres/camera_estimate.hpp"
+#include "cli/results/calibration_record.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam::cli {
-
-// What a map says of the camera that it was made with.
-struct CameraFinding {
-  Camera<double> camera;    // of the images: the given one, changed by the estimate
-  CameraEstimate estimate;  // of the images as they are worked on
-  CameraVerdict verdict = CameraVerdict::kOpen;
-};
 
 // min_gain: see CameraVerdictOptions.
 [[nodiscard]] CameraFinding examine_camera(const System& system, const CameraPrior& prior,
@@ -27,10 +21,36 @@ struct CameraFinding {
 // Tracks the first part of the dataset with `settings` until the map says something about the camera, again
 // and again with the camera that was found, until it agrees with itself. Lines alone give the rotation, and
 // nobody looks on. kOpen: nothing was found, and the given camera stands in the answer.
-[[nodiscard]] CameraFinding find_camera(const io::Dataset& dataset, const Settings& settings,
-                                        const MaskSource& masks, const CameraPrior& prior);
+[[nodiscard]] CameraFinding find_camera_by_tracking(io::Dataset& dataset, const Settings& settings,
+                                                    const MaskSource& masks, const CameraPrior& prior);
 
-// "focal length 481.2 px, centre (319.5, 239.9), k1 0.012, k2 -0.003"
-[[nodiscard]] std::string camera_text(const Camera<double>& camera);
+// What a run does about its camera, step by step.
+class SelfCalibration {
+ public:
+  // guess: whatever stands in `camera`, it is looked for before the run. Dataset and masks outlive this.
+  SelfCalibration(io::Dataset& dataset, const MaskSource& masks, const CameraChoice& camera, bool guess);
+
+  // Nobody has calibrated this camera.
+  [[nodiscard]] bool is_guess() const noexcept { return guess_; }
+  // Puts the camera that is found into `camera`, and says so: it will stand in the file `where`.
+  void find(Settings settings, CameraChoice& camera, const std::string& where);
+  // What the map says that has been made.
+  void examine(const System& system) { record_.last = examine_camera(system, prior_); }
+  [[nodiscard]] bool contradicts() const noexcept { return record_.last.verdict == CameraVerdict::kDiffers; }
+  // For who cannot track again.
+  [[nodiscard]] std::string advice(const std::string& where) const;
+
+  [[nodiscard]] const CalibrationRecord& record() const noexcept { return record_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+
+ private:
+  io::Dataset& dataset_;
+  const MaskSource& masks_;
+  CameraPrior prior_;
+  bool guess_;
+  std::string source_;
+  CalibrationRecord record_;
+  std::vector<std::string> warnings_;
+};
 
 }  // namespace sslam::cli

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <vector>
 
 #include "sslam/ceres/bundle_blocks.hpp"
 #include "sslam/ceres/camera_estimate.hpp"
@@ -33,17 +35,29 @@ class CameraAdjustment {
  public:
   CameraAdjustmentOptions options;
 
-  // `camera` is the one that the map's features were undistorted with.
+  // `camera` is the one that the map's features were undistorted with. What holds the gauge in the graph is
+  // not looked at: the first view stays, and the farthest one from it keeps its distance.
   [[nodiscard]] CameraEstimate estimate(const Map<double>& map, const Camera<double>& camera) {
     BundleWindowOptions<double> window;
     // Both were found with the given camera, and would speak for it.
     window.planes = window.manhattan = false;
-    window_.gather_first(map, options.max_keyframes, window);
+    if (std::none_of(map.keyframes.begin(), map.keyframes.end(), [](const auto& kf) { return kf.alive(); }))
+      return {.camera = camera};
+    window_.gather_all(map, window);
     return estimate(window_.graph, camera);
   }
   [[nodiscard]] CameraEstimate estimate(const BundleGraph<double>& graph, const Camera<double>& camera);
 
  private:
+  // Edges to the views that take part; a landmark needs two.
+  template <class Edge>
+  [[nodiscard]] bool seen_twice(const std::vector<Edge>& edges, std::int32_t first, std::int32_t last) const {
+    return std::count_if(edges.begin() + first, edges.begin() + last,
+                         [this](const Edge& edge) { return takes_part(edge.view); }) >= 2;
+  }
+  [[nodiscard]] bool takes_part(std::int32_t view) const noexcept {
+    return static_cast<std::size_t>(view) < options.max_keyframes;
+  }
   void add_landmarks(const BundleGraph<double>& graph, const Camera<double>& camera,
                      ceres::LossFunction& point_loss, ceres::LossFunction& line_loss,
                      ceres::Problem& problem);
@@ -123,6 +137,7 @@ template <class Cost, class Edge, class Observed>
 bool CameraAdjustment::add(std::deque<Cost>& costs, const Camera<double>& camera, const Edge& edge,
                            const Observed& raw, ceres::LossFunction& loss, double* landmark,
                            ceres::Problem& problem) {
+  if (!takes_part(edge.view)) return false;
   double* const pose = blocks_.poses[static_cast<std::size_t>(edge.view)].data();
   double residual[2];
   const double* const at[] = {lens_.data(), pose, landmark};
@@ -139,6 +154,7 @@ inline void CameraAdjustment::add_landmarks(const BundleGraph<double>& graph, co
                                             ceres::LossFunction& point_loss, ceres::LossFunction& line_loss,
                                             ceres::Problem& problem) {
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
+    if (!seen_twice(graph.point_edges, graph.points[i].first_edge, graph.points[i].last_edge)) continue;
     double* const block = blocks_.points[i].data();
     bool used = false;
     for (auto e = graph.points[i].first_edge; e < graph.points[i].last_edge; ++e) {
@@ -148,6 +164,7 @@ inline void CameraAdjustment::add_landmarks(const BundleGraph<double>& graph, co
     if (used) ordering_->AddElementToGroup(block, 0);
   }
   for (std::size_t i = 0; i < graph.lines.size(); ++i) {
+    if (!seen_twice(graph.line_edges, graph.lines[i].first_edge, graph.lines[i].last_edge)) continue;
     double* const block = blocks_.lines[i].data();
     bool used = false;
     for (auto e = graph.lines[i].first_edge; e < graph.lines[i].last_edge; ++e) {
@@ -163,21 +180,23 @@ inline void CameraAdjustment::add_landmarks(const BundleGraph<double>& graph, co
 }
 
 inline void CameraAdjustment::add_views(const BundleGraph<double>& graph, ceres::Problem& problem) {
+  const auto centre = [&](std::size_t v) { return graph.views[v].cam_from_world.inverse().translation; };
+  std::size_t farthest = 0;
+  double distance = 0;
   for (std::size_t v = 0; v < graph.views.size(); ++v) {
     double* const block = blocks_.poses[v].data();
-    if (graph.scale && graph.scale->free == static_cast<std::int32_t>(v)) {
-      const auto held = static_cast<std::size_t>(graph.scale->held);
-      scale_costs_.emplace_back(graph.views[held].cam_from_world.inverse().translation, graph.scale->distance,
-                                options.losses.scale_sigma);
-      problem.AddResidualBlock(&scale_costs_.back(), nullptr, block);
-    }
     if (!problem.HasParameterBlock(block)) continue;
     ordering_->AddElementToGroup(block, 1);
-    if (graph.views[v].hold == Hold::kNothing)
-      problem.SetManifold(block, &pose_manifold_);
-    else
-      problem.SetParameterBlockConstant(block);
+    problem.SetManifold(block, &pose_manifold_);
+    if ((centre(v) - centre(0)).norm() <= distance) continue;
+    distance = (centre(v) - centre(0)).norm();
+    farthest = v;
   }
+  if (problem.HasParameterBlock(blocks_.poses[0].data()))
+    problem.SetParameterBlockConstant(blocks_.poses[0].data());
+  if (farthest == 0) return;
+  scale_costs_.emplace_back(centre(0), distance, options.losses.scale_sigma);
+  problem.AddResidualBlock(&scale_costs_.back(), nullptr, blocks_.poses[farthest].data());
 }
 
 }  // namespace sslam

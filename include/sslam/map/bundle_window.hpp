@@ -69,15 +69,9 @@ class BundleWindow {
 
   // Every keyframe moves.
   void gather_all(const Map<S>& map, const BundleWindowOptions<S>& options) {
-    gather_first(map, map.keyframes.size(), options);
-  }
-
-  // The oldest keyframes alone, and no others around them.
-  void gather_first(const Map<S>& map, std::size_t count, BundleWindowOptions<S> options) {
     keyframes.clear();
     for (const Keyframe<S>& kf : map.keyframes)
-      if (kf.alive() && keyframes.size() < count) keyframes.push_back(kf.id);
-    options.max_held = 0;
+      if (kf.alive()) keyframes.push_back(kf.id);
     build(map, options);
   }
 
@@ -189,7 +183,6 @@ class BundleWindow {
   // here, keeps its place, and its rotation too unless a Manhattan frame says what that is. When nothing else
   // is held, scale is tied to the distance of the farthest view from it.
   void fix_gauge() {
-    if (free_count == 0) return;
     const auto end = keyframes.begin() + static_cast<std::ptrdiff_t>(free_count);
     const auto oldest = std::min_element(keyframes.begin(), end);
     const std::size_t held = keyframes.size() - free_count;
