@@ -26,9 +26,9 @@ enum class CalibrationMode {
 
 struct RunSettings {
   std::string dataset;
-  std::string camera;   // file or name; empty: from the dataset
-  double focal = 0;     // pixels, for a camera without calibration; 0: not given
-  double fov = 0;       // the same as degrees across
+  std::string camera;  // file or name; empty: from the dataset
+  double focal = 0;    // pixels, for a camera without calibration; 0: not given
+  double fov = 0;      // the same as degrees across
   CalibrationMode calibration = CalibrationMode::kRefine;
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all

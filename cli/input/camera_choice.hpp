@@ -34,7 +34,7 @@ struct CameraChoice {
   double frame_rate = 0;    // frames a second; 0: not known
   std::string source;       // for the report: a path or a name
   std::vector<std::string> notes, warnings;
-  bool assumed = false;  // nobody knows this camera
+  bool assumed = false;       // nobody knows this camera
   double focal_sigma = 0.05;  // how far the focal length may be off, as a part of it
 };
 

@@ -23,8 +23,8 @@ inline constexpr const char* kReportFile = "report.html";
 inline constexpr const char* kCameraFoundFile = "camera_found.yaml";
 
 // Those that a run need not write.
-inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile, kTruthFile, kViewFile, kReportFile,
-                                           kCameraFoundFile};
+inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile, kTruthFile,
+                                           kViewFile,   kReportFile, kCameraFoundFile};
 
 struct RunFolder {
   std::string name;  // of the folder, for people
