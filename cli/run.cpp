@@ -236,7 +236,8 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option(
           "dataset", s->dataset,
-          "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, plain images), a quoted glob of images, a video, " +
+          "Folder (TUM RGB-D, EuRoC, ICL-NUIM, 7-Scenes, ScanNet, KITTI, nerfstudio, ..., plain images), a "
+          "quoted glob of images, a video, " +
               std::string(kStreamKinds))
       ->required();
   add_camera_options(*command, s->camera, s->focal, s->fov);

@@ -58,16 +58,15 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
     "camera.yaml",      "camera.yml",  "camera.json", "camera.txt",     "camera_info.yaml",
     "cam0/sensor.yaml", "sensor.yaml", "cameras.txt", "transforms.json"};
 
-// The camera file that lies in the dataset, or beside the video; empty: none.
+// The camera file that lies in the dataset, or beside the video, else the one of its layout; empty: none.
 [[nodiscard]] inline std::filesystem::path own_camera_file(const io::Dataset& dataset) {
-  if (!dataset.camera_file.empty()) return dataset.camera_file;
   if (dataset.layout == io::Layout::kStream) return {};  // lies nowhere
   std::error_code ignored;
   const bool folder = std::filesystem::is_directory(dataset.root, ignored);
   const std::filesystem::path place = folder ? dataset.root : dataset.root.parent_path();
   for (const std::string_view name : kOwnCameraFiles)
     if (std::filesystem::exists(place / name, ignored)) return place / name;
-  return {};
+  return dataset.camera_file;
 }
 
 // A depth factor that the chosen file leaves out is taken from the published values of the dataset, where
