@@ -322,8 +322,8 @@ void add_run_command(CLI::App& app) {
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   add_progress_options(*command, s->verbosity, true);
   put_in_group(*command, "Input",
-               {"--camera", "--focal", "--fov", "--start", "--end", "--stride", "--fps", "--longest-side",
-                "--mask", "--record", "--retry"});
+               {"--camera", "--focal", "--fov", "--calibration", "--start", "--end", "--stride", "--fps",
+                "--longest-side", "--mask", "--record", "--retry"});
   put_in_group(*command, "Tracking",
                {"--normals", "--preset", "--set", "--list-parameters", "--seed", "--map", "--live",
                 "--no-final-pass"});
