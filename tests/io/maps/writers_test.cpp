@@ -45,7 +45,8 @@ TEST_CASE("A map is points as vertices, lines as edges and planes as faces") {
   CHECK(text.rfind("ply\nformat ascii 1.0\n", 0) == 0);
   CHECK(contains(text, "element vertex 9\n"));
   CHECK(contains(text, "element edge 2\n"));
-  CHECK(contains(text, "end_header\n1.000000 2.000000 3.000000 255 0 7\n0.000000 0.000000 0.000000 128 128 128\n"));
+  CHECK(contains(text,
+                 "end_header\n1.000000 2.000000 3.000000 255 0 7\n0.000000 0.000000 0.000000 128 128 128\n"));
   CHECK(contains(text, "\n1 2 1 2 3\n3 4 4 5 6\n4 5 6 7 8 7 8 9\n"));
   CHECK(contains(text, "element face 1\n"));
   CHECK(contains(error_of([&] { io::write_map(scratch.path() / "none/map.ply", {}, {}); }),
