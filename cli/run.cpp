@@ -169,6 +169,7 @@ void run(RunSettings settings) {
   check_normals(settings, dataset, camera.depth_factor);
   MaskSource masks;
   if (!settings.mask.empty()) masks = MaskSource(settings.mask, {camera.camera.width, camera.camera.height});
+  Settings wanted = system_settings(settings, camera, parameters);
   io::prepare_output_folder(settings.out);
   const FolderLock lock = FolderLock::demand(settings.out);
   if (!settings.record.empty()) {
@@ -182,10 +183,11 @@ void run(RunSettings settings) {
   const bool examines = settings.calibration != CalibrationMode::kFixed && known.empty();
   const bool repeats = examines && !settings.live && !settings.view && !source && !recording;
   SelfCalibration calibration(dataset, masks, camera, settings.calibration == CalibrationMode::kFind);
-  if (repeats && calibration.is_guess())
-    calibration.find(system_settings(settings, camera, parameters), camera, found_at(settings));
-  auto pass =
-      std::make_unique<Pass>(settings, dataset, camera, system_settings(settings, camera, parameters));
+  if (repeats && calibration.is_guess()) {
+    calibration.find(std::move(wanted), camera, found_at(settings));
+    wanted = system_settings(settings, camera, parameters);
+  }
+  auto pass = std::make_unique<Pass>(settings, dataset, camera, std::move(wanted));
   if (!known.empty()) pass->go_on_in(std::move(known));
   pass->track(dataset, stream);
   if (examines && !pass->recorder.outcome.interrupted) {

@@ -35,8 +35,6 @@ namespace sslam::io {
 // Depth images of the same names, or with stamps for names the nearest in time.
 inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> depths = list_files(folder, is_image_name);
-  std::vector<std::string> stems;
-  for (const std::filesystem::path& depth : depths) stems.push_back(depth.stem().string());
   std::size_t found = 0;
   for (FrameEntry& frame : dataset.frames) {
     const std::filesystem::path same = folder / std::filesystem::path(frame.image).stem().concat(".png");

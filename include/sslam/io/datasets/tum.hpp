@@ -26,6 +26,7 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list,
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   const std::vector<double> stamps = frame_stamps(dataset);
   std::vector<double> depth_stamps;
+  depth_stamps.reserve(files.size());
   for (const StampedFile& file : files) depth_stamps.push_back(file.stamp);
   std::size_t absent = 0;
   std::string first_absent;
