@@ -6,7 +6,7 @@ file(WRITE ${folder}/foreign/rgb.txt "0.0 rgb/0.png\n")
 file(WRITE ${folder}/file "not a folder\n")
 
 sslam_cli_test(NAME "synth tells how much and how fast" ARGS synth ${folder}/small --size 64x48 --frames 2 --texture poor
-               OUT "small: 2 frames, 0\\.0 m, .* frames/s\n$" ERR "2/2 .* frames/s +rendered\n$" FILE ${folder}/small/rgb.txt
+               OUT "small: 2 frames, 0\\.0 m, .* frames/s\n$" ERR "2/2 .*/s +rendered\n$" FILE ${folder}/small/rgb.txt
                REGEX "0\\.000000 rgb/000000\\.jpg\n0\\.033333 rgb/000001\\.jpg\n$")
 
 # sslam_synth_refuses(OPTION VALUE REGEX): exit code 2 and the option's name.
