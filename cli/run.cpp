@@ -20,8 +20,8 @@
 #include "cli/results/run_folder.hpp"
 #include "cli/results/run_report.hpp"
 #include "cli/run/run_check.hpp"
+#include "cli/run/run_pass.hpp"
 #include "cli/run/self_calibration.hpp"
-#include "cli/run/track_sequence.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
@@ -33,8 +33,6 @@
 #include "cli/stream/live_source.hpp"
 #include "cli/stream/recording.hpp"
 #include "cli/stream/stream_name.hpp"
-#include "cli/video/overlay_video.hpp"
-#include "cli/view/live_view.hpp"
 #include "cli/view/view_options.hpp"
 
 namespace sslam::cli {
@@ -62,57 +60,6 @@ void note_stream(const LiveSource& source, RunOutcome& outcome) {
   outcome.stream_losses = figures.lost;
   if (!figures.end.empty()) outcome.warnings.push_back(figures.end);
 }
-
-class ProgressObserver : public Observer {
- public:
-  explicit ProgressObserver(Progress& progress) : progress_(progress) {}
-  void frame_tracked(const FrameEvent& event) override { progress_.show(event.report); }
-
- private:
-  Progress& progress_;
-};
-
-// One way through the dataset with one camera: the system, and what looks on.
-class Pass {
- public:
-  Pass(const RunSettings& settings, const io::Dataset& dataset, const CameraChoice& camera, Settings wanted)
-      : system(std::move(wanted)),
-        context{settings, dataset, camera.source, camera.camera, system.camera()},
-        recorder(system.camera(), dataset.frames.size(), settings.report ? kMaxViews : 0),
-        progress_(dataset.frames.size(), settings.verbosity, "run"),
-        progress_observer_(progress_) {
-    system.add_observer(recorder);
-    if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, system.camera()));
-    if (settings.view) system.add_observer(live.emplace(context, recorder.colours).observer());
-    system.add_observer(progress_observer_);
-  }
-
-  void go_on_in(Map<double> known) {
-    known_keyframes_ = known.keyframes.size();
-    recorder.colours.note(known, load_map_colours(context.settings.map, known));
-    system.resume(std::move(known));
-  }
-
-  // Frames of a stream join the dataset.
-  void track(io::Dataset& dataset, FrameStreamOptions options) {
-    const bool paced = context.settings.live && !(options.source && options.source->sets_the_pace());
-    options.pace = paced ? dataset.seconds_per_stamp : 0;
-    FrameStream stream(dataset, system, std::move(options));
-    track_sequence(system, stream, recorder, known_keyframes_);
-    progress_.finish();
-  }
-
-  System system;
-  RunContext context;
-  RunRecorder recorder;
-  std::optional<OverlayVideo> video;
-  std::optional<LiveView> live;
-
- private:
-  std::size_t known_keyframes_ = 0;
-  Progress progress_;
-  ProgressObserver progress_observer_;
-};
 
 Settings system_settings(const RunSettings& settings, const CameraChoice& camera,
                          const std::vector<ParameterValue>& parameters) {
@@ -187,7 +134,7 @@ void run(RunSettings settings) {
     calibration.find(std::move(wanted), camera, found_at(settings));
     wanted = system_settings(settings, camera, parameters);
   }
-  auto pass = std::make_unique<Pass>(settings, dataset, camera, std::move(wanted));
+  auto pass = std::make_unique<RunPass>(settings, dataset, camera, std::move(wanted));
   if (!known.empty()) pass->go_on_in(std::move(known));
   pass->track(dataset, stream);
   if (examines && !pass->recorder.outcome.interrupted) {
@@ -195,7 +142,8 @@ void run(RunSettings settings) {
     if (repeats && !calibration.is_guess() && calibration.contradicts()) {
       pass.reset();
       calibration.find(system_settings(settings, camera, parameters), camera, found_at(settings));
-      pass = std::make_unique<Pass>(settings, dataset, camera, system_settings(settings, camera, parameters));
+      pass =
+          std::make_unique<RunPass>(settings, dataset, camera, system_settings(settings, camera, parameters));
       pass->track(dataset, stream);
       calibration.examine(pass->system);
     } else if (calibration.contradicts()) {

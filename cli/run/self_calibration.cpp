@@ -19,6 +19,27 @@ std::size_t count_keyframes(const Map<double>& map) {
       std::count_if(map.keyframes.begin(), map.keyframes.end(), [](const auto& kf) { return kf.alive(); }));
 }
 
+// min_gain: see CameraVerdictOptions.
+CameraFinding examine_camera(const System& system, const CameraPrior& prior, double min_gain) {
+  CameraFinding found;
+  found.camera = system.settings().camera;
+  constexpr std::size_t kFewest = 5;  // keyframes
+  if (count_keyframes(system.map()) < kFewest) return found;
+  CameraAdjustment adjustment;
+  adjustment.options.prior = prior;
+  found.estimate = adjustment.estimate(system.map(), system.camera());
+  if (!usable(found.estimate.status)) return found;
+  LensChange<double> change = found.estimate.change;
+  change[1] *= static_cast<double>(found.camera.width) / system.camera().width;
+  change[2] *= static_cast<double>(found.camera.height) / system.camera().height;
+  found.camera = changed(found.camera, change);
+  if (check_camera(found.camera).fault.empty())
+    found.verdict = judge_camera(system.camera(), found.estimate, {.min_gain = min_gain});
+  else
+    found.camera = system.settings().camera;
+  return found;
+}
+
 // A round costs little, so that it may be for a small gain.
 constexpr double kMinGain = 0.02;
 
@@ -41,28 +62,9 @@ CameraFinding probe(io::Dataset& dataset, Settings settings, const MaskSource& m
   return examine_camera(system, prior, kMinGain);
 }
 
-}  // namespace
-
-CameraFinding examine_camera(const System& system, const CameraPrior& prior, double min_gain) {
-  CameraFinding found;
-  found.camera = system.settings().camera;
-  constexpr std::size_t kFewest = 5;  // keyframes
-  if (count_keyframes(system.map()) < kFewest) return found;
-  CameraAdjustment adjustment;
-  adjustment.options.prior = prior;
-  found.estimate = adjustment.estimate(system.map(), system.camera());
-  if (!usable(found.estimate.status)) return found;
-  LensChange<double> change = found.estimate.change;
-  change[1] *= static_cast<double>(found.camera.width) / system.camera().width;
-  change[2] *= static_cast<double>(found.camera.height) / system.camera().height;
-  found.camera = changed(found.camera, change);
-  if (check_camera(found.camera).fault.empty())
-    found.verdict = judge_camera(system.camera(), found.estimate, {.min_gain = min_gain});
-  else
-    found.camera = system.settings().camera;
-  return found;
-}
-
+// Tracks the first part of the dataset with `settings` until the map says something about the camera, again
+// and again with the camera that was found, until it agrees with itself. Lines alone give the rotation, and
+// nobody looks on. kOpen: nothing was found, and the given camera stands in the answer.
 CameraFinding find_camera_by_tracking(io::Dataset& dataset, const Settings& settings, const MaskSource& masks,
                                       const CameraPrior& prior) {
   Settings wanted = settings;
@@ -81,6 +83,8 @@ CameraFinding find_camera_by_tracking(io::Dataset& dataset, const Settings& sett
   return best;
 }
 
+}  // namespace
+
 SelfCalibration::SelfCalibration(io::Dataset& dataset, const MaskSource& masks, const CameraChoice& camera,
                                  bool guess)
     : dataset_(dataset), masks_(masks), source_(camera.source) {
@@ -89,6 +93,10 @@ SelfCalibration::SelfCalibration(io::Dataset& dataset, const MaskSource& masks, 
   record_.given = camera.camera;
   record_.depth_factor = camera.depth_factor;
   record_.frame_rate = camera.frame_rate;
+}
+
+void SelfCalibration::examine(const System& system) {
+  record_.last = examine_camera(system, prior_, CameraVerdictOptions().min_gain);
 }
 
 void SelfCalibration::find(Settings settings, CameraChoice& camera, const std::string& where) {

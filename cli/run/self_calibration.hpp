@@ -14,16 +14,6 @@
 
 namespace sslam::cli {
 
-// min_gain: see CameraVerdictOptions.
-[[nodiscard]] CameraFinding examine_camera(const System& system, const CameraPrior& prior,
-                                           double min_gain = CameraVerdictOptions().min_gain);
-
-// Tracks the first part of the dataset with `settings` until the map says something about the camera, again
-// and again with the camera that was found, until it agrees with itself. Lines alone give the rotation, and
-// nobody looks on. kOpen: nothing was found, and the given camera stands in the answer.
-[[nodiscard]] CameraFinding find_camera_by_tracking(io::Dataset& dataset, const Settings& settings,
-                                                    const MaskSource& masks, const CameraPrior& prior);
-
 // What a run does about its camera, step by step.
 class SelfCalibration {
  public:
@@ -35,7 +25,7 @@ class SelfCalibration {
   // Puts the camera that is found into `camera`, and says so: it will stand in the file `where`.
   void find(Settings settings, CameraChoice& camera, const std::string& where);
   // What the map says that has been made.
-  void examine(const System& system) { record_.last = examine_camera(system, prior_); }
+  void examine(const System& system);
   [[nodiscard]] bool contradicts() const noexcept { return record_.last.verdict == CameraVerdict::kDiffers; }
   // For who cannot track again.
   [[nodiscard]] std::string advice(const std::string& where) const;

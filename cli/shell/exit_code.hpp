@@ -15,7 +15,7 @@ enum class ExitCode : int {
   kInterrupted = 130,  // Ctrl-C; what had been computed was written
 };
 
-// A value on the command line that is none of those that there are: kUsage. In a file it is bad input.
+// An unknown value: on the command line kUsage, in a file kFailed.
 struct UsageError : Error {
   using Error::Error;
 };
