@@ -7,7 +7,6 @@ namespace sslam {
 
 extern template class Map<double>;
 
-template class BundleSolver<double>;
 template class MapAdjustment<double, BundleSolver<double>>;
 
 }  // namespace sslam

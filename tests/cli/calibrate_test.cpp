@@ -14,6 +14,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace calibrate_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,3 +210,5 @@ TEST_CASE("calibrate says which board is there instead") {
     require_refused(session, session.calibrate("--pattern charuco --size 7x8"), "check --size and --pattern");
   }
 }
+
+}  // namespace calibrate_test

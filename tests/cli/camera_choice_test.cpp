@@ -9,6 +9,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace camera_choice_test {
+
 using namespace sslam;
 using testing::contains;
 
@@ -137,3 +139,5 @@ TEST_CASE("A calibration without a size that cannot be that of the images is ref
                  "camera.yaml: the principal point (319.5, 239.5) is far from the middle of 320x240"));
   CHECK(room.error(640, 480).empty());
 }
+
+}  // namespace camera_choice_test

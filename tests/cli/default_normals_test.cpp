@@ -7,6 +7,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace default_normals_test {
+
 using namespace sslam;
 
 TEST_CASE("The network is the default where it is installed and of use") {
@@ -32,3 +34,5 @@ TEST_CASE("A manifest without its model is no model") {
   CHECK(cli::first_model(places) == whole);
   CHECK_FALSE(cli::first_model(std::vector<std::filesystem::path>{lonely}));
 }
+
+}  // namespace default_normals_test

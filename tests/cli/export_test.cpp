@@ -15,6 +15,8 @@
 #include "support/catch.hpp"
 #include "support/colmap_model.hpp"
 
+namespace export_test {
+
 namespace fs = std::filesystem;
 using namespace sslam::testing;
 
@@ -273,3 +275,5 @@ TEST_CASE("export refuses what it cannot use with one line") {
   REQUIRE(unknown.code == 2);
   REQUIRE(unknown.text.find("sslam: error: --format: bundler not in {colmap,kitti,nerfstudio,ply,tum}") == 0);
 }
+
+}  // namespace export_test

@@ -12,6 +12,8 @@
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace frame_reader_test {
+
 using namespace sslam;
 using namespace std::string_literals;
 using testing::contains;
@@ -165,3 +167,5 @@ TEST_CASE("images of 16 bit are read by the range that the first frames use, and
   images.back() = ramp(0, 1020);
   CHECK(read(images, 8).second == Approx(64).margin(2));
 }
+
+}  // namespace frame_reader_test

@@ -7,6 +7,8 @@
 #include "cli/room_copy.hpp"
 #include "cli/shell/toml_text.hpp"
 
+namespace hostile_test {
+
 namespace fs = std::filesystem;
 using namespace sslam::testing;
 
@@ -105,3 +107,5 @@ TEST_CASE("files of two runs in one folder are recognised by all who read it") {
   CHECK(goes_on.code == 0);
   CHECK(goes_on.text.find("map.sslam" + what) != std::string::npos);
 }
+
+}  // namespace hostile_test

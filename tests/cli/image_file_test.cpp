@@ -10,6 +10,8 @@
 #include "sslam/io/datasets/video.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace image_file_test {
+
 using namespace sslam;
 using testing::contains;
 
@@ -66,3 +68,5 @@ TEST_CASE("A file that is no video is refused by name") {
   CHECK(contains(testing::error_of([&] { cli::list_video_frames(dataset); }),
                  "walk.mp4: cannot open this video"));
 }
+
+}  // namespace image_file_test

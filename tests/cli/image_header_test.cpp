@@ -10,6 +10,8 @@
 #include "io/errors.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace image_header_test {
+
 using namespace sslam;
 using testing::contains;
 
@@ -111,3 +113,5 @@ TEST_CASE("an image that claims more pixels than any camera has is not decoded")
   CHECK(cli::load_image(path, cv::IMREAD_COLOR, why).empty());
   CHECK(contains(why, "bomb.png: claims 20000x20000 pixels, more than 200 million"));
 }
+
+}  // namespace image_header_test

@@ -6,6 +6,8 @@
 
 #include "support/catch.hpp"
 
+namespace interrupt_test {
+
 using sslam::cli::HeldSignals;
 using sslam::cli::Interrupt;
 
@@ -73,3 +75,5 @@ TEST_CASE("held signals take effect later") {
           std::raise(SIGTERM);
         }) == SIGTERM);
 }
+
+}  // namespace interrupt_test

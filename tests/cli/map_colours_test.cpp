@@ -9,6 +9,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace map_colours_test {
+
 namespace {
 
 namespace cli = sslam::cli;
@@ -103,3 +105,5 @@ TEST_CASE("colours survive the file beside the map, and a run that goes on in th
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
   CHECK_THROWS_AS((void)cli::read_colours(path, map), sslam::Error);
 }
+
+}  // namespace map_colours_test

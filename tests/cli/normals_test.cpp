@@ -14,6 +14,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace normals_test {
+
 using namespace sslam;
 using sslam::testing::interrupt_program;
 using sslam::testing::Outcome;
@@ -153,3 +155,5 @@ TEST_CASE("normals keeps what it has when it is interrupted") {
   }
   CHECK(outcome.text.find("images           " + std::to_string(pictures) + " of 400") != std::string::npos);
 }
+
+}  // namespace normals_test

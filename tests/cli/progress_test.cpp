@@ -17,6 +17,8 @@
 #include "sslam/io/files/csv_reader.hpp"
 #include "support/catch.hpp"
 
+namespace progress_test {
+
 namespace fs = std::filesystem;
 using namespace sslam::testing;
 
@@ -209,3 +211,5 @@ TEST_CASE("help fits the terminal, and the line of progress 80 columns elsewhere
   for (const std::string& line : lines_of(run_apart(track(copy, "--end 20")).err))
     if (line.starts_with("run ")) CHECK(line.size() < 80);
 }
+
+}  // namespace progress_test

@@ -11,6 +11,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace report_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,3 +159,5 @@ TEST_CASE("a report of what is no run is refused with one line") {
   write(scratch.path() / "frames.csv", "");
   refused(scratch.path(), "holds no run that can be read (");
 }
+
+}  // namespace report_test

@@ -19,6 +19,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace result_set_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -152,3 +154,5 @@ TEST_CASE("a file of another run is told from those of this one") {
   CHECK(foreign_files(scratch.path(), {{"../x", 7}, {"a", nullptr}}).size() == 1);
   CHECK(foreign_files(scratch.path(), "no list").empty());
 }
+
+}  // namespace result_set_test

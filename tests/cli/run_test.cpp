@@ -13,6 +13,8 @@
 #include "sslam/core/types.hpp"
 #include "support/catch.hpp"
 
+namespace run_test {
+
 namespace fs = std::filesystem;
 using namespace sslam::testing;
 using Copy = RoomCopy;
@@ -428,3 +430,5 @@ TEST_CASE("demo renders, tracks and says where to look") {
   REQUIRE(text_of(scratch.path() / "demo/run/metrics.json").find("\"normals\": \"onnx\"") !=
           std::string::npos);
 }
+
+}  // namespace run_test

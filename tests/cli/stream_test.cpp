@@ -10,6 +10,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace stream_test {
+
 using namespace sslam;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("a stream is told from a file by its name") {
   CHECK_FALSE(kind("photos/left_*.png"));
   CHECK_FALSE(kind(scratch.write("7", "a file").string()));
 }
+
+}  // namespace stream_test

@@ -19,6 +19,8 @@
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
+namespace synth_test {
+
 using namespace sslam;
 using sslam::testing::Outcome;
 using sslam::testing::run_program;
@@ -132,3 +134,5 @@ TEST_CASE("synth leaves out what is not wanted") {
   CHECK_FALSE(fs::exists(scratch / "a/depth.txt"));
   CHECK_FALSE(fs::exists(scratch / "a/normals"));
 }
+
+}  // namespace synth_test

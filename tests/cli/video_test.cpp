@@ -14,6 +14,8 @@
 #include "sslam/io/files/csv_reader.hpp"
 #include "support/catch.hpp"
 
+namespace video_test {
+
 namespace fs = std::filesystem;
 using namespace sslam::testing;
 using sslam::cli::OverlayColour;
@@ -199,3 +201,5 @@ TEST_CASE("a run that is interrupted leaves a video of what it had") {
   }
   require_no_leftover(copy.scratch.path());
 }
+
+}  // namespace video_test

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The heavy kernels are instantiated once, in src/, instead of once for every pipeline.
+// The heavy kernels are instantiated once a scalar, in src/, instead of once for every pipeline: who includes
+// this links sslam::stages, which has them for double. SSLAM_FLOAT_KERNELS says that those for float are
+// linked as well.
 #pragma once
 
 #include "sslam/manhattan/rotation.hpp"
@@ -13,39 +15,54 @@
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/translation.hpp"
 
+// One family each: KERNELS(extern, S) declares what KERNELS(, S) instantiates.
+#define SSLAM_MANHATTAN_KERNELS(EXTERN, S)                                                                   \
+  EXTERN template ManhattanEstimate<S> track_manhattan(                                                      \
+      const NormalView<float>&, std::span<const LineVote<S>>, const ManhattanPrior<S>&,                      \
+      const ManhattanOptions<S>&, std::span<std::int8_t>) noexcept;                                          \
+  EXTERN template ManhattanEstimate<S> find_manhattan(const NormalView<float>&,                              \
+                                                      std::span<const LineVote<S>>, const SearchOptions<S>&, \
+                                                      std::uint64_t, std::span<std::int8_t>) noexcept;
+
+#define SSLAM_TWO_VIEW_KERNELS(EXTERN, S)                                                                    \
+  EXTERN template TranslationEstimate<S> translation_from_rotation(                                          \
+      std::span<const BearingMatch<S>>, const SO3<S>&, const TranslationOptions<S>&, std::uint64_t,          \
+      std::span<std::uint8_t>) noexcept;                                                                     \
+  EXTERN template RelativePoseSummary<S> refine_relative_pose(std::span<const BearingMatch<S>>, SO3<S>&,     \
+                                                              Vec3<S>&, const RelativePoseOptions<S>&,       \
+                                                              std::span<std::uint8_t>) noexcept;             \
+  EXTERN template RelativePoseSummary<S> find_relative_pose(                                                 \
+      std::span<const BearingMatch<S>>, const FindRelativePoseOptions<S>&, std::uint64_t, SO3<S>&, Vec3<S>&, \
+      std::span<std::uint8_t>) noexcept;
+
+#define SSLAM_TRIANGULATION_KERNELS(EXTERN, S)                                                           \
+  EXTERN template PointTriangulation<S> triangulate_point(std::span<const PointView<S>>,                 \
+                                                          const PointTriangulationOptions<S>&) noexcept; \
+  EXTERN template LineTriangulation<S> triangulate_line(std::span<const LineView<S>>,                    \
+                                                        const LineTriangulationOptions<S>&) noexcept;
+
+#define SSLAM_POSE_KERNELS(EXTERN, S)                                                                        \
+  EXTERN template PoseSummary<S, 6> refine_pose(const Pinhole<S>&, std::span<const PointObservation<S>>,     \
+                                                std::span<const LineObservation<S>>, SE3<S>&,                \
+                                                const PoseRefinementOptions<S>&, std::span<std::uint8_t>,    \
+                                                std::span<std::uint8_t>, const RotationPrior<S>*) noexcept;  \
+  EXTERN template PoseSummary<S, 3> refine_translation(                                                      \
+      const Pinhole<S>&, std::span<const PointObservation<S>>, std::span<const LineObservation<S>>, SE3<S>&, \
+      const PoseRefinementOptions<S>&, std::span<std::uint8_t>, std::span<std::uint8_t>) noexcept;
+
+#define SSLAM_KERNELS(EXTERN, S)         \
+  SSLAM_MANHATTAN_KERNELS(EXTERN, S)     \
+  SSLAM_TWO_VIEW_KERNELS(EXTERN, S)      \
+  SSLAM_TRIANGULATION_KERNELS(EXTERN, S) \
+  SSLAM_POSE_KERNELS(EXTERN, S)          \
+  EXTERN template class BundleSolver<S>;
+
 namespace sslam {
 
-extern template ManhattanEstimate<double> track_manhattan(
-    const NormalView<float>&, std::span<const LineVote<double>>, const ManhattanPrior<double>&,
-    const ManhattanOptions<double>&, std::span<std::int8_t>) noexcept;  // kernels_manhattan.cpp
-extern template ManhattanEstimate<double> find_manhattan(
-    const NormalView<float>&, std::span<const LineVote<double>>, const SearchOptions<double>&, std::uint64_t,
-    std::span<std::int8_t>) noexcept;  // kernels_manhattan.cpp
-extern template TranslationEstimate<double> translation_from_rotation(
-    std::span<const BearingMatch<double>>, const SO3<double>&, const TranslationOptions<double>&,
-    std::uint64_t, std::span<std::uint8_t>) noexcept;  // kernels_two_view.cpp
-extern template RelativePoseSummary<double> refine_relative_pose(
-    std::span<const BearingMatch<double>>, SO3<double>&, Vec3<double>&, const RelativePoseOptions<double>&,
-    std::span<std::uint8_t>) noexcept;  // kernels_two_view.cpp
-extern template RelativePoseSummary<double> find_relative_pose(
-    std::span<const BearingMatch<double>>, const FindRelativePoseOptions<double>&, std::uint64_t,
-    SO3<double>&, Vec3<double>&, std::span<std::uint8_t>) noexcept;  // kernels_two_view.cpp
-extern template PointTriangulation<double> triangulate_point(
-    std::span<const PointView<double>>,
-    const PointTriangulationOptions<double>&) noexcept;  // kernels_mapping.cpp
-extern template LineTriangulation<double> triangulate_line(
-    std::span<const LineView<double>>,
-    const LineTriangulationOptions<double>&) noexcept;  // kernels_mapping.cpp
-extern template PoseSummary<double, 6> refine_pose(
-    const Pinhole<double>&, std::span<const PointObservation<double>>,
-    std::span<const LineObservation<double>>, SE3<double>&, const PoseRefinementOptions<double>&,
-    std::span<std::uint8_t>, std::span<std::uint8_t>,
-    const RotationPrior<double>*) noexcept;     // kernels_mapping.cpp
-extern template class BundleSolver<double>;     // adjustment.cpp
-extern template class PoseGraphSolver<double>;  // loops.cpp
-extern template PoseSummary<double, 3> refine_translation(
-    const Pinhole<double>&, std::span<const PointObservation<double>>,
-    std::span<const LineObservation<double>>, SE3<double>&, const PoseRefinementOptions<double>&,
-    std::span<std::uint8_t>, std::span<std::uint8_t>) noexcept;  // kernels_mapping.cpp
+SSLAM_KERNELS(extern, double)
+extern template class PoseGraphSolver<double>;
+#ifdef SSLAM_FLOAT_KERNELS
+SSLAM_KERNELS(extern, float)
+#endif
 
 }  // namespace sslam

@@ -9,14 +9,14 @@
 namespace sslam {
 
 // L^-1 of H = L L^T; only the lower half of H is read. False, with `out` untouched, where H is not positive
-// definite.
+// definite or not finite.
 template <Scalar S, int D>
 [[nodiscard]] bool inverse_root(const Mat<S, D, D>& H, Mat<S, D, D>& out) noexcept {
   Mat<S, D, D> l = H;
   for (int c = 0; c < D; ++c) {
     for (int k = 0; k < c; ++k)
       for (int r = c; r < D; ++r) l(r, c) -= l(r, k) * l(c, k);
-    if (!(l(c, c) > 0)) return false;
+    if (!(l(c, c) > 0 && std::isfinite(l(c, c)))) return false;
     const S inverse = 1 / std::sqrt(l(c, c));
     l(c, c) = inverse;  // the diagonal is kept inverted
     for (int r = c + 1; r < D; ++r) l(r, c) *= inverse;
@@ -33,13 +33,17 @@ template <Scalar S, int D>
   return true;
 }
 
-// H^-1 of a positive definite H; otherwise false. Eigen's solve for a right side of several columns calls its
-// blocked routines, which bring the heap, a guarded static and 15 kB of code even for 3 x 3.
+// H^-1 of a positive definite H; false, with `out` untouched, where H is not, or where its inverse is beyond
+// the scalar's range: nobody takes an infinite covariance for one. Eigen's solve for a right side of several
+// columns calls its blocked routines, which bring the heap, a guarded static and 15 kB of code even for 3
+// x 3.
 template <Scalar S, int D>
 [[nodiscard]] bool inverse_of(const Mat<S, D, D>& H, Mat<S, D, D>& out) noexcept {
   Mat<S, D, D> root;
   if (!inverse_root<S, D>(H, root)) return false;
-  out = root.transpose() * root;
+  const Mat<S, D, D> inverse = root.transpose() * root;
+  if (!inverse.allFinite()) return false;
+  out = inverse;
   return true;
 }
 

@@ -166,7 +166,6 @@ template <Scalar S>
   result.max_error = std::sqrt(now.worst);
   if (!inverse_of<S, 3>(now.h, result.covariance)) return refuse(Status::kLowParallax);
   result.point = x + origin;
-  if (!result.covariance.allFinite()) return refuse(Status::kLowParallax);
   return refuse(result.max_error > options.max_error ? Status::kNoConsensus : Status::kOk);
 }
 

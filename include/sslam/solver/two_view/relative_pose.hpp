@@ -70,7 +70,7 @@ template <Scalar S>
   information.template bottomRightCorner<2, 2>() += chance * sum.noise;
   Mat<S, 5, 5> covariance;
   // Finite: the inverse of tiny numbers overflows.
-  if (!inverse_of<S, 5>(information, covariance) || !covariance.allFinite()) return Status::kDegenerate;
+  if (!inverse_of<S, 5>(information, covariance)) return Status::kDegenerate;
   const Mat<S, 3, 2> basis = tangent_basis(pose.t_10);
   summary.rotation_covariance = covariance.template topLeftCorner<3, 3>();
   summary.translation_covariance = basis * covariance.template bottomRightCorner<2, 2>() * basis.transpose();
