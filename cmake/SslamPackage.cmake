@@ -11,7 +11,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsslam-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libopencv-dev, libopencv-contrib-dev, libceres-dev")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libsslam-dev" RENAME copyright
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSES/copyright" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libsslam-dev"
         COMPONENT dev)
 
 if(SSLAM_BUILD_CLI)
@@ -20,7 +20,7 @@ if(SSLAM_BUILD_CLI)
   set(CPACK_DEBIAN_CLI_PACKAGE_NAME sslam)
   set(CPACK_DEBIAN_CLI_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_CLI_PACKAGE_SHLIBDEPS ON)
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sslam" RENAME copyright
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSES/copyright" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sslam"
           COMPONENT cli)
 endif()
 include(CPack)

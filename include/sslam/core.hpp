@@ -12,6 +12,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/core/parameter_table.hpp"
 #include "sslam/core/random.hpp"
+#include "sslam/core/sha256.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/text_flow.hpp"
 #include "sslam/core/text_node.hpp"

@@ -49,6 +49,8 @@ TEST_CASE("a wrong field of a manifest is named", "[normals]") {
   const std::vector<std::pair<Changes, std::string>> cases{
       {{{"sslam-normals-1", "other"}}, "manifest.format"},
       {{{"\"tiny_normals.onnx\"", "\"absent.onnx\""}}, "manifest.model"},
+      {{{"\"format\"", "\"sha256\": \"12ab\", \"format\""}}, "manifest.sha256"},
+      {{{"\"format\"", "\"sha256\": \"" + std::string(64, '0') + "\", \"format\""}}, "is another model"},
       {{{"\"width\": 64", "\"width\": \"wide\""}}, "input.width"},
       {{{"\"height\": 48", "\"height\": 0"}}, "input.height"},
       {{{"\"rgb\"", "\"cmyk\""}}, "input.channels"},

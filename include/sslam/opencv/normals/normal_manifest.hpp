@@ -35,6 +35,7 @@ struct NetworkInput {
 struct NormalManifest {
   std::filesystem::path file;   // the manifest itself, for messages
   std::filesystem::path model;  // the ONNX file
+  std::string sha256;           // of the model, 64 hexadecimal digits in lower case; empty: not told
   NetworkInput input;
   NetworkOutput kind = NetworkOutput::kNormals;
   std::string output;                   // name of the output with three channels, or of the depth
@@ -191,6 +192,11 @@ inline void read_output(const cv::FileNode& node, const Reader& reader, NormalMa
   NormalManifest manifest;
   manifest.file = file;
   manifest.model = file.parent_path() / reader.text(root, "model", "manifest");
+  manifest.sha256 = reader.text(root, "sha256", "manifest", "");
+  if (!manifest.sha256.empty() &&
+      (manifest.sha256.size() != 64 ||
+       manifest.sha256.find_first_not_of("0123456789abcdef") != std::string::npos))
+    reader.fail("manifest.sha256", "not 64 digits of 0-9 and a-f");
   manifest.input = normal_manifest_detail::read_input(root["input"], reader);
   normal_manifest_detail::read_output(root["output"], reader, manifest);
   return manifest;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
@@ -12,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/sha256.hpp"
 #include "sslam/opencv/normals/network_view.hpp"
 #include "sslam/opencv/normals/normal_manifest.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
@@ -89,13 +92,25 @@ class OnnxNetwork {
     return error.err.substr(0, error.err.find('\n'));
   }
 
+  // Of the very file that the manifest means, where it says so by a checksum.
+  [[nodiscard]] std::string model_bytes() const {
+    std::ifstream file(manifest_.model, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (file.bad() || !file.is_open()) fail(manifest_.model, "cannot be read");
+    if (const std::string& wanted = manifest_.sha256; !wanted.empty() && sha256(bytes) != wanted)
+      fail(manifest_.file, "manifest.sha256: " + manifest_.model.string() +
+                               " is another model than the one that is meant. Get both files from one place");
+    return bytes;
+  }
+
   void load() {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(manifest_.model, ignored))
       fail(manifest_.file, "manifest.model: no file " + manifest_.model.string());
+    const std::string bytes = model_bytes();
     const Silence silence;
     try {
-      net_ = cv::dnn::readNetFromONNX(manifest_.model.string());
+      net_ = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
     } catch (const cv::Exception& error) {
       fail(manifest_.model, "no ONNX model that OpenCV " CV_VERSION " reads: " + first_line(error));
     }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SHA-256 (FIPS 180-4) of a file, for the test that holds a shipped model against its manifest.
+// SHA-256 (FIPS 180-4): tells whether a file is the one that somebody meant.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace sslam {
@@ -49,6 +46,7 @@ inline void add_block(const unsigned char* block, State& state) {
 
 }  // namespace sha256_detail
 
+// 64 digits, lower case.
 [[nodiscard]] inline std::string sha256(std::string data) {
   sha256_detail::State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                              0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
@@ -65,11 +63,6 @@ inline void add_block(const unsigned char* block, State& state) {
     hex += digits;
   }
   return hex;
-}
-
-[[nodiscard]] inline std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return sha256({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
 }
 
 }  // namespace sslam
