@@ -4,5 +4,6 @@ foreach(what options man bash zsh install)
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/self_description.py $<TARGET_FILE:sslam> ${PROJECT_BINARY_DIR} ${what})
   set_tests_properties("cli: self description ${what}" PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
+set_tests_properties("cli: self description install" PROPERTIES RESOURCE_LOCK install)
 sslam_cli_test(NAME "completion for an unknown shell" ARGS --completion fish CODE 2
                ERR "^sslam: error: --completion: fish not in {bash,zsh}")
