@@ -187,9 +187,16 @@ void add_run_command(CLI::App& app) {
       ->add_option(
           "dataset", s->dataset,
           "Folder (TUM RGB-D, EuRoC, ICL-NUIM, 7-Scenes, ScanNet, KITTI, nerfstudio, ..., plain images), a "
-          "quoted glob of images, a video, " +
+          "quoted glob of images, a video, a bag of ROS 1 or 2 (bag, mcap), " +
               std::string(kStreamKinds))
       ->required();
+  command
+      ->add_option("--topic", s->topics.images, "Topic of a bag's images; not needed where it has one alone")
+      ->type_name("NAME");
+  command
+      ->add_option("--depth-topic", s->topics.depth,
+                   "Topic of a bag's depth images, for the same pixels; not needed where it has one alone")
+      ->type_name("NAME");
   add_camera_options(*command, s->camera, s->focal, s->fov);
   static const std::map<std::string, CalibrationMode> kCalibrations{{"fixed", CalibrationMode::kFixed},
                                                                     {"refine", CalibrationMode::kRefine},
@@ -272,8 +279,8 @@ void add_run_command(CLI::App& app) {
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   add_progress_options(*command, s->verbosity, true);
   put_in_group(*command, "Input",
-               {"--camera", "--focal", "--fov", "--calibration", "--start", "--end", "--stride", "--fps",
-                "--longest-side", "--mask", "--record", "--retry"});
+               {"--topic", "--depth-topic", "--camera", "--focal", "--fov", "--calibration", "--start",
+                "--end", "--stride", "--fps", "--longest-side", "--mask", "--record", "--retry"});
   put_in_group(*command, "Tracking",
                {"--normals", "--preset", "--set", "--list-parameters", "--seed", "--map", "--live",
                 "--no-final-pass"});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/shell/progress.hpp"
+#include "sslam/io/datasets/bag.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
@@ -26,9 +27,10 @@ enum class CalibrationMode {
 
 struct RunSettings {
   std::string dataset;
-  std::string camera;  // file or name; empty: from the dataset
-  double focal = 0;    // pixels, for a camera without calibration; 0: not given
-  double fov = 0;      // the same as degrees across
+  io::BagTopics topics;  // of a bag: where its images and their depth are
+  std::string camera;    // file or name; empty: from the dataset
+  double focal = 0;      // pixels, for a camera without calibration; 0: not given
+  double fov = 0;        // the same as degrees across
   CalibrationMode calibration = CalibrationMode::kRefine;
   std::string normals;  // empty: the network that comes with sslam where it is installed, else none
   std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which calibration a run uses: --camera, --focal or --fov, else a camera file in the dataset, else a
-// published one for the dataset, else what the first image says about its lens, else a guess that is told.
+// Which calibration a run uses: --camera, --focal or --fov, else a camera file in the dataset, else what a
+// bag says, else a published one for the dataset, else what the first image says about its lens, else a guess
+// that is told.
 #pragma once
 
 #include <algorithm>
@@ -48,6 +49,14 @@ inline void print_notes(const CameraChoice& choice) {
   return {file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
 }
 
+[[nodiscard]] inline CameraChoice camera_from_text(const io::Dataset& dataset) {
+  const std::string& source = dataset.camera_source;
+  const CameraFile file = parse_camera_text(dataset.camera_text, source);
+  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, source, file.notes, {}, false};
+  choice.notes.insert(choice.notes.begin(), "the camera is that of " + source);
+  return choice;
+}
+
 [[nodiscard]] inline CameraChoice camera_from_known(const io::KnownCamera& known) {
   return {known.camera, known.depth_factor, known.frame_rate, "built in: " + std::string(known.name), {}, {},
           false};
@@ -91,6 +100,7 @@ inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
       choice.notes.insert(choice.notes.begin(), "the camera is that of " + own.string());
     return choice;
   }
+  if (!dataset.camera_text.empty()) return complete(camera_from_text(dataset));
   if (known) return camera_from_known(*known);
   return std::nullopt;
 }

@@ -30,12 +30,16 @@ FirstImage find_first_image(const io::Dataset& dataset, cv::Size camera) {
     const VideoInfo info = VideoReader(dataset.root).info();
     return {dataset.root.string(), info.size, info.turn, {}};
   }
+  FrameReader reader(dataset);
   for (std::size_t i = 0; i < std::min(kTries, dataset.frames.size()); ++i) {
     first.name = dataset.frames[i].image;
     std::vector<std::uint8_t> bytes;
     ImageHeader header;
     std::string why;
-    if (open_image(first.name, bytes, header, why, camera)) {
+    if (dataset.bag) {
+      first.stored = reader.read(dataset.frames[i], why).size();
+      if (!first.stored.empty()) return first;
+    } else if (open_image(first.name, bytes, header, why, camera)) {
       if (header.size.empty())
         header.size = decode_image(first.name, bytes, header, cv::IMREAD_COLOR, why).size();
       first.stored = header.size;

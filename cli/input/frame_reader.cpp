@@ -26,26 +26,42 @@ ImageTurn turn_for_camera(cv::Size stored, ImageTurn turn, cv::Size camera, bool
 
 FrameReader::FrameReader(const io::Dataset& dataset, cv::Size camera) : dataset_(dataset), camera_(camera) {
   if (dataset_.layout == io::Layout::kVideo) video_ = std::make_unique<VideoReader>(dataset_.root);
+  if (!dataset_.bag) return;
+  images_.emplace(*dataset_.bag, dataset_.bag->images);
+  depths_.emplace(*dataset_.bag, dataset_.bag->depth);
 }
 
 cv::Mat FrameReader::read(const io::FrameEntry& entry, std::string& why) {
-  cv::Mat image = is_video() ? read_video(entry, why) : read_file(entry, why);
+  cv::Mat image = is_video() ? read_video(entry, why) : read_still(entry, why);
   if (image.empty() || camera_.empty() || image.size() == camera_) return image;
   why = wrong_size(entry.image, image.size(), camera_);
   return {};
 }
 
-cv::Mat FrameReader::read_file(const io::FrameEntry& entry, std::string& why) {
+cv::Mat FrameReader::read_depth(const io::FrameEntry& entry, std::string& why) {
+  return depths_ ? depths_->depth(entry.index, label(entry), why)
+                 : load_depth(entry.depth, dataset_.layout, why);
+}
+
+// As stored, of 8 or 16 bit; `turn`: what is to be done with it.
+cv::Mat FrameReader::load(const io::FrameEntry& entry, ImageTurn& turn, std::string& why) {
+  turn = kUpright;
+  if (images_) return images_->image(entry.index, label(entry), camera_, why);
   std::vector<std::uint8_t> bytes;
   ImageHeader header;
   if (!open_image(entry.image, bytes, header, why, camera_)) return {};
-  const ImageTurn turn = turn_for_camera(header.size, header.turn, camera_, false);
+  turn = turn_for_camera(header.size, header.turn, camera_, false);
   const cv::Size size = turned_size(header.size, turn);
   if (!camera_.empty() && !size.empty() && size != camera_) {  // not worth decoding
     why = wrong_size(entry.image, size, camera_);
     return {};
   }
-  cv::Mat image = decode_image(entry.image, bytes, header, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH, why);
+  return decode_image(entry.image, bytes, header, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH, why);
+}
+
+cv::Mat FrameReader::read_still(const io::FrameEntry& entry, std::string& why) {
+  ImageTurn turn = kUpright;
+  cv::Mat image = load(entry, turn, why);
   if (image.empty()) return {};
   if (image.depth() == CV_16U) {
     find_range(image);
@@ -64,9 +80,9 @@ void FrameReader::find_range(const cv::Mat& read) {
   if (range_) return;
   range_.emplace();
   for (std::size_t i = 0; i < std::min(kFrames, dataset_.frames.size()); ++i) {
+    ImageTurn turn = kUpright;
     std::string ignored;
-    const cv::Mat image =
-        load_image(dataset_.frames[i].image, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH, ignored);
+    const cv::Mat image = load(dataset_.frames[i], turn, ignored);
     if (image.depth() == CV_16U) range_->add(image);
   }
   if (range_->empty()) range_->add(read);
@@ -103,13 +119,13 @@ cv::Mat FrameReader::read_video(const io::FrameEntry& entry, std::string& why) {
 std::string FrameReader::label(const io::FrameEntry& entry) const {
   if (dataset_.layout == io::Layout::kStream) return entry.image + " frame " + std::to_string(entry.index);
   const std::string file = std::filesystem::path(entry.image).filename().string();
-  return is_video() ? file + " frame " + std::to_string(entry.index) : file;
+  return are_counted() ? file + " frame " + std::to_string(entry.index) : file;
 }
 
 std::string FrameReader::stem(const io::FrameEntry& entry) const {
   if (dataset_.layout == io::Layout::kStream) return video_frame_stem("stream", entry.index);
-  return is_video() ? video_frame_stem(entry.image, entry.index)
-                    : std::filesystem::path(entry.image).stem().string();
+  return are_counted() ? video_frame_stem(entry.image, entry.index)
+                       : std::filesystem::path(entry.image).stem().string();
 }
 
 }  // namespace sslam::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The images of a dataset in order, whether they are files or the frames of a video.
+// The images of a dataset in order, whether they are files, the frames of a video or the messages of a bag.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/input/bag_reader.hpp"
 #include "cli/input/image_header.hpp"
 #include "cli/input/image_range.hpp"
 #include "cli/input/video_reader.hpp"
@@ -34,6 +35,9 @@ class FrameReader {
   // be decoded.
   [[nodiscard]] cv::Mat read(const io::FrameEntry& entry, std::string& why);
 
+  // Of an entry that has depth: in the image's own type, with 0 for what was not measured. Empty as above.
+  [[nodiscard]] cv::Mat read_depth(const io::FrameEntry& entry, std::string& why);
+
   // For people.
   [[nodiscard]] std::string label(const io::FrameEntry& entry) const;
 
@@ -45,7 +49,10 @@ class FrameReader {
 
  private:
   [[nodiscard]] bool is_video() const noexcept { return video_ != nullptr; }
-  [[nodiscard]] cv::Mat read_file(const io::FrameEntry& entry, std::string& why);
+  // Within one file, and known by their numbers.
+  [[nodiscard]] bool are_counted() const noexcept { return is_video() || images_; }
+  [[nodiscard]] cv::Mat read_still(const io::FrameEntry& entry, std::string& why);
+  [[nodiscard]] cv::Mat load(const io::FrameEntry& entry, ImageTurn& turn, std::string& why);
   [[nodiscard]] cv::Mat read_video(const io::FrameEntry& entry, std::string& why);
   void find_range(const cv::Mat& read);
 
@@ -54,6 +61,7 @@ class FrameReader {
   std::unique_ptr<VideoReader> video_;
   bool decoded_ = false;     // the video has decoded a frame that nobody has asked for yet
   std::int64_t frame_ = -1;  // its number
+  std::optional<BagReader> images_, depths_;
   std::optional<ImageRange> range_;
 };
 

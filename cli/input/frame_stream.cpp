@@ -161,11 +161,11 @@ std::string FrameStream::normals_warning(const io::FrameEntry& entry, NormalStat
          (whole ? ", and for others like it, which metrics.json counts" : "");
 }
 
-void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const {
+void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) {
   if (entry.depth.empty() || !system_.reads_depth()) return;
   input.depth_factor = system_.settings().depth_factor;
   std::string why;
-  input.depth = load_depth(entry.depth, dataset_.layout, why);
+  input.depth = reader_.read_depth(entry, why);
   if (input.depth.empty()) out.warning = why + "; lines alone for this frame";
 }
 

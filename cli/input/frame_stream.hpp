@@ -59,7 +59,7 @@ class FrameStream {
   void fill(SourceFrame& frame, ExtractedFrame& out);
   void read(SourceFrame& frame);
   [[nodiscard]] std::string normals_warning(const io::FrameEntry& entry, NormalStatus status);
-  void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) const;
+  void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out);
 
   io::Dataset& dataset_;
   System& system_;

@@ -19,6 +19,21 @@ bool is_too_large(const ImageHeader& header, cv::Size expected) {
          static_cast<std::int64_t>(header.size.width) * header.size.height > kMostPixels;
 }
 
+bool check_image(const fs::path& name, const std::vector<std::uint8_t>& bytes, ImageHeader& header,
+                 std::string& why, cv::Size expected) {
+  header = read_image_header(bytes);
+  if (!header.complete || bytes.empty()) {
+    why = name.string() + ": truncated image";
+    return false;
+  }
+  if (is_too_large(header, expected)) {
+    why = name.string() + ": claims " + size_text(header.size) + " pixels, more than " +
+          std::to_string(kMostPixels / 1'000'000) + " million; a camera file with this size lets it in";
+    return false;
+  }
+  return true;
+}
+
 bool open_image(const fs::path& path, std::vector<std::uint8_t>& bytes, ImageHeader& header, std::string& why,
                 cv::Size expected) {
   std::error_code error;
@@ -39,17 +54,7 @@ bool open_image(const fs::path& path, std::vector<std::uint8_t>& bytes, ImageHea
     why = path.string() + ": cannot read this image";
     return false;
   }
-  header = read_image_header(bytes);
-  if (!header.complete || bytes.empty()) {
-    why = path.string() + ": truncated image";
-    return false;
-  }
-  if (is_too_large(header, expected)) {
-    why = path.string() + ": claims " + size_text(header.size) + " pixels, more than " +
-          std::to_string(kMostPixels / 1'000'000) + " million; a camera file with this size lets it in";
-    return false;
-  }
-  return true;
+  return check_image(path, bytes, header, why, expected);
 }
 
 cv::Mat decode_image(const fs::path& path, const std::vector<std::uint8_t>& bytes, const ImageHeader& header,

@@ -18,6 +18,11 @@ namespace sslam::cli {
 // Claims more pixels than anybody has; but `expected` many are let in.
 [[nodiscard]] bool is_too_large(const ImageHeader& header, cv::Size expected);
 
+// What `bytes` say of the image that they are. False, with the reason in `why`, when there is nothing to
+// decode: they have lost their end, or claim more pixels than anybody has; but `expected` many are let in.
+[[nodiscard]] bool check_image(const std::filesystem::path& name, const std::vector<std::uint8_t>& bytes,
+                               ImageHeader& header, std::string& why, cv::Size expected = {});
+
 // Reads the file and what its bytes say of the image. False, with the reason in `why`, when there is nothing
 // to decode: the file is missing, has lost its end, or claims more pixels than anybody has; but `expected`
 // many are let in.

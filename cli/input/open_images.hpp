@@ -2,8 +2,10 @@
 // Images for commands that take them one by one: all that `sslam run` takes, or a single image.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
+#include "cli/input/bag_reader.hpp"
 #include "cli/input/image_file.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 
@@ -13,18 +15,32 @@ namespace sslam::cli {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
+// As io::open_dataset, with the frames of videos and bags, too: of a video `at_most` of them, if that is not
+// negative. Throws Error, also where topics are wanted and this is no bag.
+[[nodiscard]] inline io::Dataset open_frames(const std::filesystem::path& path,
+                                             const io::OpenOptions& options = {},
+                                             const io::BagTopics& topics = {}, std::int64_t at_most = -1) {
+  io::Dataset dataset = io::open_dataset(path, options);
+  const bool bag = dataset.layout == io::Layout::kBag;
+  if (!bag && !(topics.images.empty() && topics.depth.empty()))
+    throw Error(path.string() + ": is no bag, so it has no topics; leave --topic and --depth-topic out");
+  if (bag) list_bag_frames(dataset, topics);
+  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, at_most);
+  return dataset;
+}
+
 // Throws Error when there is nothing of this kind.
-[[nodiscard]] inline io::Dataset open_images(const std::filesystem::path& path) {
+[[nodiscard]] inline io::Dataset open_images(const std::filesystem::path& path,
+                                             const io::BagTopics& topics = {}) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) {
     if (io::is_image_name(path))
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
-    if (!io::is_video_name(path))
-      throw Error(path.string() + ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...)");
+    if (!io::is_video_name(path) && !io::is_bag_name(path))
+      throw Error(path.string() +
+                  ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap)");
   }
-  io::Dataset dataset = io::open_dataset(path);
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset);
-  return dataset;
+  return open_frames(path, {}, topics);
 }
 
 }  // namespace sslam::cli

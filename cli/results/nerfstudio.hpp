@@ -31,12 +31,12 @@ namespace nerfstudio_detail {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// The files of the run's images by their names; empty where the dataset has gone, or is a video.
+// The files of the run's images by their names; empty where the dataset has gone, or is a video or a bag.
 inline std::map<std::string, fs::path> image_files(const std::string& dataset) {
   std::map<std::string, fs::path> files;
   try {
     const io::Dataset found = io::open_dataset(dataset);
-    if (found.layout == io::Layout::kVideo) return files;
+    if (found.frames.empty()) return files;
     for (const io::FrameEntry& frame : found.frames)
       files[fs::path(frame.image).filename().string()] = frame.image;
   } catch (const Error&) {  // the poses are of use without the images

@@ -205,6 +205,7 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
   const Pinhole<double>& pinhole = context.camera.pinhole;
   const RadTan<double>& lens = context.camera.distortion;
   return {{"dataset", s.dataset},
+          {"topic", context.dataset.bag ? context.dataset.bag->images.topic : ""},
           {"camera", context.camera_source},
           {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
           {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},

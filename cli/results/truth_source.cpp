@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/input/open_images.hpp"
 #include "cli/results/run_folder.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 
@@ -11,7 +12,7 @@ namespace sslam::cli {
 namespace {
 
 TruthSource from_folder(const std::filesystem::path& folder, FileAxes axes) {
-  io::Dataset dataset = io::open_dataset(folder);
+  io::Dataset dataset = open_frames(folder);
   if (!dataset.truth_problem.empty()) throw Error(dataset.truth_problem);
   if (dataset.ground_truth.empty()) throw Error(folder.string() + ": this dataset has no ground truth");
   TruthSource source;
@@ -52,7 +53,7 @@ TruthSource load_truth(const std::filesystem::path& path, FileAxes axes, const s
   std::error_code ignored;
   if (is_run_folder(path) && std::filesystem::exists(path / kTruthFile, ignored))
     return load_truth(path / kTruthFile, axes);
-  if (std::filesystem::is_directory(path, ignored)) return from_folder(path, axes);
+  if (std::filesystem::is_directory(path, ignored) || io::is_bag_name(path)) return from_folder(path, axes);
   TruthSource source;
   io::PoseFile file = io::read_pose_file(path, source.warnings, times);
   source.trajectory = std::move(file.trajectory);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cli/input/first_image.hpp"
-#include "cli/input/image_file.hpp"
+#include "cli/input/open_images.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/stream/stream_name.hpp"
@@ -38,8 +38,8 @@ const Preset& choose_preset(const std::string& wanted) {
 io::Dataset open_run_dataset(const RunSettings& settings) {
   if (stream_named(settings.dataset))
     throw Error(settings.dataset + ": is a stream, which nobody can run twice; sslam run takes it");
-  io::Dataset dataset = io::open_dataset(settings.dataset, {settings.frame_rate});
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, settings.slice.end);
+  io::Dataset dataset =
+      open_frames(settings.dataset, {settings.frame_rate}, settings.topics, settings.slice.end);
   io::apply_slice(dataset, settings.slice);
   print_warnings(dataset.warnings);
   return dataset;

@@ -13,8 +13,7 @@
 #include "bindings/messages.hpp"
 #include "cli/input/first_image.hpp"
 #include "cli/input/frame_reader.hpp"
-#include "cli/input/image_file.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
+#include "cli/input/open_images.hpp"
 
 namespace sslam::python {
 namespace {
@@ -33,8 +32,7 @@ std::unique_ptr<Recording> open(const std::filesystem::path& path, const std::st
   auto recording = std::make_unique<Recording>();
   (void)take_messages();
   io::Dataset& dataset = recording->dataset;
-  dataset = io::open_dataset(path, {frame_rate});
-  if (dataset.layout == io::Layout::kVideo) cli::list_video_frames(dataset, end);
+  dataset = cli::open_frames(path, {frame_rate}, {}, end);
   io::apply_slice(dataset, {start, end, stride});
   recording->camera = cli::camera_for_images({camera, focal, fov}, dataset);
   recording->messages = dataset.warnings;
@@ -82,8 +80,7 @@ class Frames {
         entry = &recording_.dataset.frames[at_++];
         image = reader_.read(*entry, why);
         name = reader_.stem(*entry);
-        if (with_depth && !image.empty() && !entry->depth.empty())
-          depth = cli::load_depth(entry->depth, recording_.dataset.layout, why);
+        if (with_depth && !image.empty() && !entry->depth.empty()) depth = reader_.read_depth(*entry, why);
       }
     }
     if (entry == nullptr) return nb::none();

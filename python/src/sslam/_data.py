@@ -94,7 +94,7 @@ def open_dataset(
     stride: int = 1,
 ) -> Dataset:
     """Opens whatever `sslam run` takes: a folder in a layout that it knows (docs/run.md), a folder or a glob of
-    images, or a video.
+    images, a video, or a bag of ROS with one topic of images.
 
     camera: a camera file or the name of a built-in calibration; else focal (pixels) or fov (degrees across); else the
         one that is found in the dataset, or guessed with a warning.

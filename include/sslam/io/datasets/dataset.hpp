@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,6 +31,7 @@ enum class Layout {
   kIclNuim,
   kTransforms,
   kColourDepth,
+  kBag,
   kImages,
   kVideo,
   kStream
@@ -41,22 +43,27 @@ struct FrameEntry {
   std::int64_t index =
       0;  // position in the whole sequence, before any slice; the frame number of a video or a stream
   double stamp = 0;           // the dataset's own
-  std::string image;          // path; the video itself for a video
-  std::string depth;          // path; empty: none
+  std::string image;          // path; the video or the bag itself where it is one
+  std::string depth;          // path, or the topic in a bag; empty: none
   std::ptrdiff_t truth = -1;  // position in the dataset's ground truth; -1: none
 };
 
+struct BagFrames;  // datasets/bag.hpp
+
 struct Dataset {
   Layout layout = Layout::kImages;
-  std::filesystem::path root;         // folder of the sequence, or the video
-  std::vector<FrameEntry> frames;     // increasing stamps; empty for a video until fill_video_frames
+  std::filesystem::path root;         // folder of the sequence, or the video, or the bag
+  std::vector<FrameEntry> frames;     // increasing stamps; empty for videos and bags until they are filled in
   Trajectory ground_truth;            // all of it, on its own clock, in our camera axes; empty: none
   std::string truth_problem;          // why the ground truth that lies there is not used
   std::optional<double> video_start;  // time of a video's first frame on its own clock; empty: it has none
   double seconds_per_stamp = 1;       // ICL-NUIM stamps count frames
   std::filesystem::path camera_file;  // that the layout keeps at a place of its own; empty: none
-  double depth_factor = 0;            // units of its depth images a metre, by the layout; 0: not known
-  std::string name_hint;              // text that may name the recording, for the built-in calibrations
+  std::string camera_text;            // a camera file that is no file: what a bag says of it; empty: none
+  std::string camera_source;          // where that stands, for people
+  std::shared_ptr<const BagFrames> bag;  // where a bag's frames lie; null: it is none, or not filled in
+  double depth_factor = 0;               // units of its depth images a metre, by the layout; 0: not known
+  std::string name_hint;                 // text that may name the recording, for the built-in calibrations
   Warnings warnings;
 
   // The ground truth of a frame; null: none.

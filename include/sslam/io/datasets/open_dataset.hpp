@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/colour_depth.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/datasets/euroc.hpp"
@@ -37,7 +38,7 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 10> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
@@ -62,6 +63,8 @@ inline constexpr std::array<FolderLayout, 10> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_colour_depth(root, options.frame_rate);
      }},
+    {Layout::kBag, "ROS bag", "metadata.yaml with *.mcap", is_bag_folder,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return unread_bag(root); }},
     {Layout::kImages, "folder of images", "*.png, *.jpg, ...", is_image_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_image_folder(root, options.frame_rate);
@@ -83,7 +86,8 @@ inline constexpr std::array<FolderLayout, 10> kFolderLayouts{{
   return text;
 }
 
-// path: a folder in one of the layouts, a glob of images, or a video. Throws Error when it is none of them.
+// path: a folder in one of the layouts, a glob of images, a video, or a bag. Throws Error when it is none of
+// them.
 [[nodiscard]] inline Dataset open_dataset(const std::filesystem::path& path,
                                           const OpenOptions& options = {}) {
   std::error_code ignored;
@@ -94,7 +98,9 @@ inline constexpr std::array<FolderLayout, 10> kFolderLayouts{{
   }
   if (!std::filesystem::is_directory(status)) {
     if (is_video_name(path)) return read_video(path);
-    throw Error(path.string() + ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...)");
+    if (is_bag_name(path)) return unread_bag(path);
+    throw Error(path.string() +
+                ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap)");
   }
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.matches(path)) return known.read(path, options);

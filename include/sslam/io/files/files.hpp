@@ -39,6 +39,12 @@ namespace sslam::io {
   return has_extension(path, kVideos);
 }
 
+// A recording of ROS 1, of ROS 2 in either storage, or of Foxglove.
+[[nodiscard]] inline bool is_bag_name(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 3> kBags{".bag", ".mcap", ".db3"};
+  return has_extension(path, kBags);
+}
+
 [[nodiscard]] inline bool all_digits(std::string_view text) noexcept {
   return !text.empty() &&
          std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });

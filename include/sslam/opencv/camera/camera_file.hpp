@@ -75,22 +75,26 @@ namespace detail {
 
 }  // namespace detail
 
-// Throws Error, in one line, when the file cannot be read, is of no known kind, has a lens that sslam has
-// not, or misses a key that must be there; also when a number is none, not finite or not positive where it
-// must be.
-[[nodiscard]] inline CameraFile read_camera_file(const std::filesystem::path& path) {
-  const std::string text = detail::read_camera_text(path), file = path.string();
+// As read_camera_file, of text that is no file; `source` says where it is from.
+[[nodiscard]] inline CameraFile parse_camera_text(const std::string& text, const std::string& source) {
   const auto first = text.find_first_not_of(" \t\r\n");
   try {
     if (first != std::string::npos && text[first] == '<')
-      return detail::read_camera_tree(detail::parse_xml(text, file), file);
-    if (auto rows = detail::read_camera_rows(text, file)) return *rows;
-    return detail::read_camera_tree(TextTree::parse(text, file), file);
+      return detail::read_camera_tree(detail::parse_xml(text, source), source);
+    if (auto rows = detail::read_camera_rows(text, source)) return *rows;
+    return detail::read_camera_tree(TextTree::parse(text, source), source);
   } catch (const Error& error) {
     std::string line = error.what();  // keys and values in quotes may span lines
     std::replace(line.begin(), line.end(), '\n', ' ');
     throw Error(line);
   }
+}
+
+// Throws Error, in one line, when the file cannot be read, is of no known kind, has a lens that sslam has
+// not, or misses a key that must be there; also when a number is none, not finite or not positive where it
+// must be.
+[[nodiscard]] inline CameraFile read_camera_file(const std::filesystem::path& path) {
+  return parse_camera_text(detail::read_camera_text(path), path.string());
 }
 
 }  // namespace sslam

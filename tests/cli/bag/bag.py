@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sslam run` on recordings of ROS 1 and 2 that other programs have written, and `sslam export --format mcap` read back by them.
+
+Usage: bag.py PROGRAM CASE   (ros1, ros2, mcap, depth, refusals, export)
+"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import numpy as np
+    import bags
+    import mcap.reader
+    import mcap_ros2.decoder
+    import rosbags.rosbag1  # noqa: F401
+except ImportError as missing:
+    print(f"SKIPPED: {missing} in {sys.executable}; scripts/install_packages --tests fetches it")
+    sys.exit(0)
+
+FRAMES = 20
+
+
+class Sslam:
+    def __init__(self, program, scratch):
+        self.program, self.scratch = program, scratch
+        self.run_program("synth", scratch / "room", "--quiet", "--frames", FRAMES, "--seed", 3, "--size", "320x240", "--image-format",
+                         "png")
+        self.room = bags.Room(scratch / "room", FRAMES)
+
+    def run_program(self, *arguments, code=0):
+        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True)
+        assert done.returncode == code, (arguments, done)
+        return done
+
+    def run(self, dataset, name, *options, code=0):
+        out = self.scratch / name
+        done = self.run_program("run", dataset, "--out", out, "--quiet", "--no-report", "--calibration", "fixed", "--normals", "none",
+                                *options, code=code)
+        return out, done.stderr
+
+    def same_as_folder(self, path, *options):
+        """The same poses and map to the bit, and the same error against the truth."""
+        if not (self.scratch / "folder").exists():
+            self.run(self.room.folder, "folder", *options)
+        out, said = self.run(path, pathlib.Path(path).name + "_out", *options)
+        for name in ("trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ply", "groundtruth.txt"):
+            assert (out / name).read_bytes() == (self.scratch / "folder" / name).read_bytes(), (path, name)
+        with open(out / "frames.csv", newline="") as file:
+            assert len(list(csv.DictReader(file))) == FRAMES
+        return said
+
+
+def ros1(sslam):
+    for compression in (None, "LZ4", "BZ2"):
+        path = sslam.scratch / f"{compression}.bag"
+        bags.write_ros1(path, sslam.room.messages(depth=None), compression)
+        said = sslam.same_as_folder(path)
+        assert "the camera is that of" in said and "/camera/camera_info" in said, said
+    # Its recorder was killed.
+    data = (sslam.scratch / "LZ4.bag").read_bytes()
+    (sslam.scratch / "cut.bag").write_bytes(data[:len(data) * 2 // 3])
+    _, said = sslam.run(sslam.scratch / "cut.bag", "cut")
+    assert "what stands before is used" in said, said
+
+
+def ros2(sslam):
+    path = sslam.scratch / "recording"
+    bags.write_ros2(path, sslam.room.messages(packed=True, depth=None))
+    sslam.same_as_folder(path)
+    assert "has no topics" in sslam.run(sslam.room.folder, "none", "--topic", "/camera/image_raw", code=1)[1]
+
+
+def mcap_files(sslam):
+    messages = list(sslam.room.messages(depth=None))
+    for compression in ("NONE", "LZ4", "ZSTD"):
+        path = sslam.scratch / f"{compression}.mcap"
+        bags.write_mcap(path, messages, compression)
+        sslam.same_as_folder(path)
+    path = sslam.scratch / "plain.mcap"
+    bags.write_mcap(path, messages, "NONE", use_chunking=False)
+    sslam.same_as_folder(path)
+
+
+def depth(sslam):
+    """Depth images are paired with the images, and mean what they say."""
+    for encoding in ("16UC1", "32FC1"):
+        path = sslam.scratch / f"{encoding}.mcap"
+        bags.write_mcap(path, sslam.room.messages(packed=True, depth=encoding))
+        done = sslam.run_program("run", path, "--out", sslam.scratch / encoding, "--no-report", "--quiet", "--normals", "depth")
+        assert "lines alone" not in done.stderr, done.stderr
+    # Metres as floats are those of 16 bit: the same normals, so the same poses but for rounding.
+    poses = [np.loadtxt(sslam.scratch / encoding / "trajectory.txt") for encoding in ("16UC1", "32FC1")]
+    assert poses[0].shape == poses[1].shape and np.abs(poses[0] - poses[1]).max() < 1e-3
+
+
+def refusals(sslam):
+    def said(path, *options):
+        text = sslam.run(path, "refused", *options, code=1)[1].strip()
+        assert "\n" not in text.split("error: ", 1)[1], text
+        return text
+
+    one = list(sslam.room.messages(packed=True, depth=None, camera=False))[:4]
+    two = [(topic.replace("/camera/", "/right/"), *rest) for topic, *rest in one]
+    bags.write_mcap(sslam.scratch / "two.mcap", one + two)
+    text = said(sslam.scratch / "two.mcap")
+    assert "2 topics with images" in text and "/right/image_raw/compressed" in text, text
+    assert "names no topic" in said(sslam.scratch / "two.mcap", "--topic", "/nowhere")
+    bags.write_ros2(sslam.scratch / "sqlite", one, "SQLITE3")
+    assert "ros2 bag convert" in said(sslam.scratch / "sqlite")
+    bags.write_ros1(sslam.scratch / "poses.bag", [m for m in sslam.room.messages(packed=True, depth=None) if "Pose" in m[1] or
+                                                  "Transform" in m[1]])
+    assert "holds no images" in said(sslam.scratch / "poses.bag")
+    (sslam.scratch / "text.bag").write_text("hello")
+    assert "neither a ROS 1 bag" in said(sslam.scratch / "text.bag")
+
+
+def export(sslam):
+    sslam.run(sslam.room.folder, "run", "--calibration", "refine")
+    out = sslam.scratch / "run"
+    sslam.run_program("export", out, "--format", "mcap")
+    trajectory = np.loadtxt(out / "trajectory.txt")
+    vertices = [line.split() for line in (out / "map.ply").read_text().splitlines()]
+    count = {row[1]: int(row[2]) for row in vertices if row[0] == "element"}
+    vertices = np.array(vertices[vertices.index(["end_header"]) + 1:][:count["vertex"]], float)
+    found = {}
+    with open(out / "mcap" / "run.mcap", "rb") as file:
+        reader = mcap.reader.make_reader(file, validate_crcs=True, decoder_factories=[mcap_ros2.decoder.DecoderFactory()])
+        summary = reader.get_summary()
+        for schema, channel, message, ros in reader.iter_decoded_messages():
+            found.setdefault(channel.topic, []).append((schema.name, message.log_time, ros))
+    assert summary.statistics.message_count == sum(map(len, found.values()))
+    assert len(summary.chunk_indexes) == summary.statistics.chunk_count > 0
+    check_types(out / "mcap" / "run.mcap")
+
+    turn = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], float)  # x, z, -y
+    tf = found["/tf"]
+    assert len(tf) == len(trajectory)
+    (path,) = [ros for _, _, ros in found["/path"]]
+    assert len(path.poses) == len(trajectory)
+    for row, (name, time, ros), pose in zip(trajectory, tf, path.poses):
+        (transform,) = ros.transforms
+        assert name == "tf2_msgs/msg/TFMessage" and (transform.header.frame_id, transform.child_frame_id) == ("map", "camera")
+        assert time == transform.header.stamp.sec * 10**9 + transform.header.stamp.nanosec == round(row[0] * 1e9)
+        t, q = transform.transform.translation, transform.transform.rotation
+        assert np.allclose([t.x, t.y, t.z], turn @ row[1:4], atol=1e-6)
+        assert np.allclose(matrix(q.x, q.y, q.z, q.w), turn @ matrix(*row[4:8]), atol=1e-6)
+        assert (pose.pose.position.x, pose.pose.orientation.w) == (t.x, q.w)
+    (cloud,) = [ros for _, _, ros in found["/points"]]
+    points = vertices[:cloud.width]
+    cells = np.frombuffer(bytes(cloud.data), np.dtype("<f4, <f4, <f4, 3u1, u1"))
+    assert len(cells) == cloud.width > 20 and cloud.row_step == len(cloud.data)
+    for cell, point in zip(cells, points):
+        assert np.allclose([cell[0], cell[1], cell[2]], turn @ point[:3], atol=1e-4)
+        assert cell[3].tolist() == point[:2:-1].tolist()  # blue, green, red
+    (lines,) = [ros for _, _, ros in found["/lines"]]
+    ends = vertices[cloud.width:][:2 * count["edge"]]
+    assert len(lines.points) == len(lines.colors) == len(ends) > 10
+    for end, colour, row in zip(lines.points, lines.colors, ends):
+        assert np.allclose([end.x, end.y, end.z], turn @ row[:3], atol=1e-5)
+        assert np.allclose([colour.r, colour.g, colour.b, colour.a], [*row[3:] / 255, 1], atol=1e-3)
+    (camera,) = [ros for _, _, ros in found["/camera_info"]]
+    assert (camera.width, camera.height) == (320, 240) and camera.k[0] == camera.p[0] == sslam.room.camera["fx"]
+    # What was exported is a recording without images.
+    assert "holds no images" in sslam.run(out / "mcap" / "run.mcap", "again", code=1)[1]
+
+
+def check_types(path):
+    """The definitions in the file are those of ROS 2, field by field."""
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+    known = get_typestore(Stores.ROS2_HUMBLE).fielddefs
+    with open(path, "rb") as file:
+        for schema in mcap.reader.make_reader(file).get_summary().schemas.values():
+            for name, (_, fields) in get_types_from_msg(schema.data.decode(), schema.name).items():
+                assert fields == known[name][1], name
+
+
+def matrix(x, y, z, w):
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+CASES = {"ros1": ros1, "ros2": ros2, "mcap": mcap_files, "depth": depth, "refusals": refusals, "export": export}
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory(prefix="sslam_bag_") as folder:
+        CASES[sys.argv[2]](Sslam(sys.argv[1], pathlib.Path(folder)))
