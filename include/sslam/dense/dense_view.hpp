@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a keyframe knows about surfaces: its image, its normals, and where landmarks are seen at which depth.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "sslam/geometry/camera.hpp"
+#include "sslam/geometry/plane3.hpp"
+#include "sslam/geometry/se3.hpp"
+#include "sslam/image/image_view.hpp"
+
+namespace sslam::dense {
+
+// Surface normals on a grid of pixels of its own.
+struct NormalImage {
+  int columns = 0, rows = 0;
+  Pinhole<double> pinhole;           // of the grid, lens distortion taken out
+  std::vector<Vec3<float>> normals;  // row by row: unit, camera frame, towards the camera; zero: none
+};
+
+// A landmark, seen in a view.
+struct DepthMark {
+  Vec2<double> pixel;
+  double depth = 0;  // z in the camera frame, units of the map
+  double sigma = 0;  // of the depth
+};
+
+struct DenseView {
+  SE3<double> cam_from_world;
+  Pinhole<double> pinhole;        // of `grey`
+  ImageView<std::uint8_t> grey;   // lens distortion taken out; its owner keeps it alive
+  NormalImage normals;            // empty: none
+  std::vector<DepthMark> marks;   // pixels of `grey`
+  std::vector<std::size_t> near;  // other views that see the same things from elsewhere
+
+  [[nodiscard]] Vec3<double> centre() const noexcept { return cam_from_world.inverse().translation; }
+};
+
+// A plane, and the rectangle of it that is known best.
+struct BoundedPlane {
+  Plane3<double> plane;
+  Mat<double, 3, 2> basis = Mat<double, 3, 2>::Zero();  // world: of two coordinates in the plane
+  Vec2<double> low = Vec2<double>::Zero(), high = Vec2<double>::Zero();
+
+  [[nodiscard]] Vec3<double> place(const Vec2<double>& u) const {
+    return plane.distance * plane.normal + basis * u;
+  }
+  // Of a place in the plane from the rectangle; 0 within.
+  [[nodiscard]] double beyond(const Vec2<double>& u) const {
+    return (low - u).cwiseMax(u - high).cwiseMax(0).norm();
+  }
+};
+
+// 1 / z of a plane is linear in the pixel: row . (u, v, 1), in the frame of the plane's transform. Zero where
+// the plane runs through the camera.
+[[nodiscard]] inline Vec3<double> inverse_depth_form(const Pinhole<double>& k, const Plane3<double>& in_cam) {
+  if (!(std::abs(in_cam.distance) > 1e-12)) return Vec3<double>::Zero();
+  const Vec3<double> n = in_cam.normal / in_cam.distance;
+  return {n.x() / k.fx, n.y() / k.fy, n.z() - n.x() * k.cx / k.fx - n.y() * k.cy / k.fy};
+}
+
+}  // namespace sslam::dense
