@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/dense/dense_result.hpp"
 #include "cli/input/camera_options.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
@@ -75,6 +76,14 @@ Settings system_settings(const RunSettings& settings, const CameraChoice& camera
   wanted.final_pass = settings.final_pass;
   wanted.keep_pictures = true;  // the map's colours come from them
   return wanted;
+}
+
+// What it has to say is a warning of the run.
+void add_dense(RunPass& pass) {
+  RunOutcome& outcome = pass.recorder.outcome;
+  outcome.dense = make_dense(outcome.map, pass.recorder.pictures, pass.system.camera());
+  outcome.warnings.insert(outcome.warnings.end(), outcome.dense->warnings.begin(),
+                          outcome.dense->warnings.end());
 }
 
 // What a warning of a camera ends with: where to read the one that was found.
@@ -153,6 +162,7 @@ void run(RunSettings settings) {
   }
 
   RunOutcome& outcome = pass->recorder.outcome;
+  if (settings.dense) add_dense(*pass);
   if (source) note_stream(*source, outcome);
   warn_of_useless_normals(settings.normals, outcome);
   outcome.warnings.insert(outcome.warnings.begin(), calibration.warnings().begin(),
@@ -275,6 +285,10 @@ void add_run_command(CLI::App& app) {
       "--view", s->view,
       "Show the run in a browser on this machine while it goes on, then its report until Ctrl-C");
   add_port_option(*command, s->port)->needs(view);
+  command->add_flag(
+      "--dense", s->dense,
+      "Write the walls, floors and other planes with the images on them: model.glb for any viewer, "
+      "model.ply");
   command->add_flag_callback(
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   add_progress_options(*command, s->verbosity, true);
@@ -284,7 +298,7 @@ void add_run_command(CLI::App& app) {
   put_in_group(*command, "Tracking",
                {"--normals", "--preset", "--set", "--list-parameters", "--seed", "--map", "--live",
                 "--no-final-pass"});
-  put_in_group(*command, "Output", {"--out", "--video", "--view", "--port", "--no-report"});
+  put_in_group(*command, "Output", {"--out", "--video", "--view", "--port", "--dense", "--no-report"});
   put_in_group(*command, "Messages", {"--quiet", "--verbose", "--json-progress"});
   command->callback([s] { run(*s); });
 }

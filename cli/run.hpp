@@ -44,6 +44,7 @@ struct RunSettings {
   int longest_side = 960;  // of the images as they are worked on, pixels
   bool final_pass = true;  // all frames are tracked again in the finished map
   bool report = true;      // write report.html
+  bool dense = false;      // write the dense model of planes
   double retry = 10;       // seconds that a lost stream is tried again for
   std::string record;      // folder to keep what is tracked in, as a dataset; empty: none
   std::string video;       // overlay video to write; empty: none

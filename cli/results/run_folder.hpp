@@ -21,10 +21,12 @@ inline constexpr const char* kViewFile = "views.bin";
 inline constexpr const char* kColourFile = "colours.bin";  // of the map beside it
 inline constexpr const char* kReportFile = "report.html";
 inline constexpr const char* kCameraFoundFile = "camera_found.yaml";
+inline constexpr const char* kModelFile = "model.glb";  // of `--dense`
+inline constexpr const char* kModelPlyFile = "model.ply";
 
 // Those that a run need not write.
-inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile, kTruthFile,
-                                           kViewFile,   kReportFile, kCameraFoundFile};
+inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile,      kTruthFile, kViewFile,
+                                           kReportFile, kCameraFoundFile, kModelFile, kModelPlyFile};
 
 struct RunFolder {
   std::string name;  // of the folder, for people

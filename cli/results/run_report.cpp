@@ -195,6 +195,10 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
         outcome.apart.maps, outcome.apart.frames);
   if (outcome.calibration && outcome.calibration->last.verdict != CameraVerdict::kOpen)
     std::printf("camera           by the map: %s\n", camera_text(outcome.calibration->last.camera).c_str());
+  if (outcome.dense && !outcome.dense->empty())
+    std::printf("dense            %zu planes from %zu keyframes in %.1f s: %s, %s\n",
+                outcome.dense->model.planes.size(), outcome.dense->keyframes, outcome.dense->seconds,
+                kModelFile, kModelPlyFile);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
 }
 
@@ -220,6 +224,7 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
           {"stride", s.slice.stride},
           {"seed", s.seed},
           {"live", s.live},
+          {"dense", s.dense},
           {"final_pass", s.final_pass}};
 }
 
@@ -234,6 +239,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
       !truth.empty())
     io::write_trajectory(out / kTruthFile, truth);
+  if (outcome.dense) write_dense(out, *outcome.dense);
   if (!outcome.views.empty()) write_views(out / kViewFile, outcome.views);
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);
@@ -263,6 +269,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
                   {"times", times_json(outcome)}};
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
   if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);
+  if (outcome.dense) metrics["dense"] = dense_json(*outcome.dense);
   metrics["warnings"] = outcome.warnings;
   if (outcome.calibration) {
     metrics["calibration"] = calibration_json(*outcome.calibration);

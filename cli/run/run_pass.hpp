@@ -40,6 +40,7 @@ class RunPass {
         recorder(system.camera(), dataset.frames.size(), settings.report ? kMaxViews : 0),
         progress_(dataset.frames.size(), settings.verbosity, "run"),
         progress_observer_(progress_) {
+    recorder.keep_pictures = settings.dense;
     system.add_observer(recorder);
     if (!settings.video.empty()) system.add_observer(video.emplace(settings.video, dataset, system.camera()));
     if (settings.view) system.add_observer(live.emplace(context, recorder.colours).observer());

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/dense/keyframe_pictures.hpp"
 #include "cli/results/frame_record.hpp"
 #include "cli/results/frame_view.hpp"
 #include "cli/results/map_colours.hpp"
@@ -33,12 +34,17 @@ class RunRecorder : public Observer {
     outcome.frames.push_back({event.report, event.input.label});
   }
   void keyframe_made(const FrameEvent& event) override {
-    colours.note(event.frame.frame, event.input.picture, camera_);
+    const Frame<double>& frame = event.frame.frame;
+    colours.note(frame, event.input.picture, camera_);
+    if (keep_pictures)
+      pictures.note(frame, event.input.picture, event.input.normal_picture, event.input.normal_pinhole);
   }
   void warning(const std::string& line) override { outcome.warnings.push_back(line); }
 
   RunOutcome outcome;
   FeatureColours colours;
+  bool keep_pictures = false;  // of keyframes
+  KeyframePictures pictures;
 
  private:
   // More frames than expected: every other picture goes.

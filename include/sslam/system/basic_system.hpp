@@ -80,7 +80,10 @@ void BasicSystem<Frontend>::extract(const ImageInput& given, Extraction& out) {
     out.picture = input.image;
     const bool seen =
         out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
-    if (seen) out.normal_picture = frontend_->normals.small_picture();
+    if (seen) {
+      out.normal_picture = frontend_->normals.small_picture();
+      out.normal_pinhole = frontend_->normals.small_pinhole(camera_);
+    }
   }
   if (!preset_.use_points) out.frame.points.clear();
   if (!preset_.use_lines) out.frame.lines.clear();

@@ -16,6 +16,7 @@ struct Extraction {
   std::string label;  // what the caller calls the image, for observers
   // The image and its normals in small, where Settings::keep_pictures asks for them; empty otherwise.
   cv::Mat picture, normal_picture;
+  Pinhole<double> normal_pinhole;  // of the normals' pixels, lens distortion taken out
 
   [[nodiscard]] bool usable() const noexcept { return report.image == ImageStatus::kOk; }
 };

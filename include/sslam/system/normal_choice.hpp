@@ -31,9 +31,10 @@ struct NormalChoice {
     if (auto* network = std::get_if<OnnxNormals>(&self.source)) visit_stage("onnx.", *network, visit);
   }
 
+  static constexpr int kColumns = 128;  // of the small picture of a network's normals, at most
+
   // The normals of the last frame, to look at; empty where there is no source of them.
   [[nodiscard]] cv::Mat small_picture() const {
-    constexpr int kColumns = 128;
     if (const auto* network = std::get_if<OnnxNormals>(&source)) {
       if (network->manifest().kind != NetworkOutput::kNormals)
         return small_normal_picture(network->depth().grid());
@@ -43,6 +44,19 @@ struct NormalChoice {
     if (const auto* depth = std::get_if<DepthNormals>(&source)) return small_normal_picture(depth->grid());
     if (const auto* files = std::get_if<FileNormals>(&source)) return small_normal_picture(files->grid());
     return {};
+  }
+
+  // Of its pixels; `camera` is that of the images. Where the source works on the lens's own pixels, its
+  // distortion is left out of account.
+  [[nodiscard]] Pinhole<double> small_pinhole(const Camera<double>& camera) const {
+    const cv::Mat picture = small_picture();
+    if (const auto* network = std::get_if<OnnxNormals>(&source))
+      if (network->manifest().kind == NetworkOutput::kNormals)
+        return sampled_pinhole(network->dense(), kColumns);
+    const double x = static_cast<double>(picture.cols) / camera.width,
+                 y = static_cast<double>(picture.rows) / camera.height;
+    const Pinhole<double>& k = camera.pinhole;
+    return {k.fx * x, k.fy * y, (k.cx + 0.5) * x - 0.5, (k.cy + 0.5) * y - 0.5};
   }
 };
 static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);

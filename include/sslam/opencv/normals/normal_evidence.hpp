@@ -76,6 +76,13 @@ struct NormalEvidence {
   return grid;
 }
 
+// The pinhole of sample_normals' grid.
+[[nodiscard]] inline Pinhole<double> sampled_pinhole(const DenseNormals& dense, int max_columns) {
+  const int step = std::max(1, (dense.normal.cols + max_columns - 1) / std::max(max_columns, 1));
+  const Pinhole<double>& k = dense.pinhole;
+  return {k.fx / step, k.fy / step, (k.cx - step / 2) / step, (k.cy - step / 2) / step};
+}
+
 namespace normal_evidence_detail {
 
 inline NormalEvidence judge(const NormalGrid& grid, const NormalEvidenceOptions& options) {

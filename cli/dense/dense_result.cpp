@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/dense/dense_result.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "cli/dense/model_files.hpp"
+#include "cli/results/run_folder.hpp"
+#include "sslam/dense/map_samples.hpp"
+#include "sslam/dense/map_views.hpp"
+#include "sslam/opencv/camera/undistorter.hpp"
+#include "sslam/opencv/normals/normal_picture.hpp"
+#include "sslam/opencv/view_of.hpp"
+#include "sslam/system/wall_timer.hpp"
+
+namespace sslam::cli {
+namespace {
+
+constexpr int kWidth = 320;  // of the images that planes are compared in, pixels, about
+
+dense::NormalImage unpack_normals(const KeyframePicture& picture) {
+  dense::NormalImage normals;
+  if (picture.normals.empty()) return normals;
+  const cv::Mat_<cv::Vec3b> image = cv::imdecode(picture.normals, cv::IMREAD_COLOR);
+  normals.columns = image.cols;
+  normals.rows = image.rows;
+  normals.pinhole = picture.normal_pinhole;
+  for (const cv::Vec3b& pixel : image) {
+    const Vec3<float> n = (Vec3<float>(pixel[2], pixel[1], pixel[0]).array() / 127.5F - 1).matrix();
+    normals.normals.push_back(pixel == no_normal() ? Vec3<float>(Vec3<float>::Zero()) : n.normalized());
+  }
+  return normals;
+}
+
+class DenseRun {
+ public:
+  DenseRun(const Map<double>& map, const KeyframePictures& pictures, const Camera<double>& camera)
+      : map_(map), pictures_(pictures), camera_(camera) {}
+
+  [[nodiscard]] DenseResult run() {
+    WallTimer timer;
+    timer.begin();
+    DenseResult result;
+    result.up = up();
+    gather(result);
+    const double depth = dense::median_depth(map_);
+    const dense::DenseOptions options;
+    dense::connect_views(map_, ids_, depth, options.cost.views, views_);
+    result.model = dense::DenseBuilder(options).build(map_, depth, views_);
+    if (result.empty()) {
+      result.warnings.push_back(views_.empty() ? "--dense: no keyframe has an image: no model is written"
+                                               : "--dense: the map shows no planes: no model is written");
+    } else {
+      paint(depth, result);
+    }
+    result.seconds = timer.total() * 1e-3;
+    return result;
+  }
+
+ private:
+  void gather(DenseResult& result) {
+    const double scale = std::min(1.0, static_cast<double>(kWidth) / camera_.width);
+    std::size_t strangers = 0;
+    for (const Keyframe<double>& keyframe : map_.keyframes) {
+      if (!keyframe.alive()) continue;
+      const KeyframePicture* const picture = pictures_.of(keyframe);
+      if (picture == nullptr) {
+        ++strangers;
+        continue;
+      }
+      const cv::Mat image = straight_image(*picture);
+      cv::Mat grey;
+      cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+      if (scale < 1) cv::resize(grey, grey, {kWidth, rounded(scale * camera_.height)}, 0, 0, cv::INTER_AREA);
+      greys_.push_back(grey.clone());
+      views_.push_back(dense::view_of_keyframe(map_, keyframe, scale));
+      views_.back().grey = view_of<std::uint8_t>(greys_.back());
+      views_.back().normals = unpack_normals(*picture);
+      ids_.push_back(keyframe.id);
+      packed_.push_back(picture);
+      result.colour = result.colour || picture->colour;
+      result.normals = result.normals || !picture->normals.empty();
+    }
+    result.keyframes = views_.size();
+    scale_ = scale;
+    if (strangers > 0)
+      result.warnings.push_back(
+          "--dense: " + std::to_string(strangers) +
+          " keyframes of an earlier run have no images here: the model does without them");
+    if (!views_.empty() && !result.colour)
+      result.warnings.emplace_back("--dense: the images have no colour: the model is grey");
+  }
+
+  [[nodiscard]] static int rounded(double x) { return static_cast<int>(std::lround(x)); }
+
+  [[nodiscard]] cv::Mat straight_image(const KeyframePicture& picture) {
+    return undistorter_.undistort(cv::imdecode(picture.image, cv::IMREAD_COLOR), camera_).clone();
+  }
+
+  void paint(double depth, DenseResult& result) {
+    const TextureInput input{result.model, views_, depth / camera_.pinhole.fx,
+                             [this](std::size_t v) { return straight_image(*packed_[v]); }, 1 / scale_};
+    result.atlas = make_atlas(input);
+  }
+
+  // The Manhattan axis that is nearest to the cameras' up, else that itself.
+  [[nodiscard]] Vec3<double> up() const {
+    Vec3<double> mean = Vec3<double>::Zero();
+    for (const Keyframe<double>& keyframe : map_.keyframes)
+      if (keyframe.alive()) mean -= keyframe.cam_from_world.inverse().rotation.matrix().col(1);
+    if (!(mean.norm() > 1e-9)) return -Vec3<double>::UnitY();
+    mean.normalize();
+    for (int axis = 0; axis < (map_.world_from_manhattan.empty() ? 0 : 3); ++axis) {
+      const Vec3<double> direction = map_.axis(static_cast<std::int8_t>(axis));
+      if (std::abs(direction.dot(mean)) > std::cos(radians(30.0)))
+        return std::copysign(1.0, direction.dot(mean)) * direction;
+    }
+    return mean;
+  }
+
+  const Map<double>& map_;
+  const KeyframePictures& pictures_;
+  const Camera<double>& camera_;
+  Undistorter undistorter_;
+  double scale_ = 1;
+  std::vector<cv::Mat> greys_;
+  std::vector<dense::DenseView> views_;
+  std::vector<KeyframeId> ids_;
+  std::vector<const KeyframePicture*> packed_;
+};
+
+}  // namespace
+
+DenseResult make_dense(const Map<double>& map, const KeyframePictures& pictures,
+                       const Camera<double>& camera) {
+  return DenseRun(map, pictures, camera).run();
+}
+
+void write_dense(const std::filesystem::path& folder, const DenseResult& result) {
+  if (result.empty()) return;
+  write_glb(folder / kModelFile, result.model, result.atlas, result.up);
+  write_model_ply(folder / kModelPlyFile, result.model, result.atlas);
+}
+
+nlohmann::ordered_json dense_json(const DenseResult& result) {
+  nlohmann::ordered_json planes = nlohmann::ordered_json::array();
+  for (const dense::DensePlane& plane : result.model.planes) {
+    const Vec3<double>& n = plane.fit.plane.normal;
+    planes.push_back({{"normal", {n.x(), n.y(), n.z()}},
+                      {"distance", plane.fit.plane.distance},
+                      {"distance_sigma", std::sqrt(plane.fit.covariance(2, 2))},
+                      {"axis", plane.axis},
+                      {"area", plane.cells.area()}});
+  }
+  return {{"candidates", result.model.candidates},
+          {"area", result.model.area()},
+          {"keyframes", result.keyframes},
+          {"seconds", result.seconds},
+          {"normals", result.normals},
+          {"colour", result.colour},
+          {"texture_size", {result.atlas.image.cols, result.atlas.image.rows}},
+          {"planes", planes}};
+}
+
+}  // namespace sslam::cli

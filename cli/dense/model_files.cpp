@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/dense/model_files.hpp"
+
+#include <Eigen/Geometry>
+#include <bit>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sslam/io/files/output_file.hpp"
+#include "sslam/version.hpp"
+
+namespace sslam::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+void put(std::string& bytes, T value) {
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+struct Mesh {
+  std::vector<Vec3<float>> places, normals;
+  std::vector<Vec2<float>> textures;  // 0 to 1 over the atlas, from its upper left corner
+  std::vector<std::uint32_t> indices;
+};
+
+Mesh mesh_of(const dense::DenseModel& model, const Atlas& atlas) {
+  Mesh mesh;
+  for (const Chart& chart : atlas.charts) {
+    const dense::DensePlane& plane = model.planes[chart.plane];
+    const dense::Triangulator cut(plane.polygons[chart.polygon]);
+    const auto first = static_cast<std::uint32_t>(mesh.places.size());
+    const bool turned = plane.seen_from < 0;
+    const Vec3<double> normal = (turned ? -1 : 1) * plane.cells.plane.normal;
+    for (const Vec2<double>& u : cut.corners) {
+      const Vec2<double> pixel = atlas.pixel(chart, u);
+      mesh.places.push_back(plane.cells.place(u).cast<float>());
+      mesh.normals.push_back(normal.cast<float>());
+      mesh.textures.emplace_back(static_cast<float>((pixel.x() + 0.5) / atlas.image.cols),
+                                 static_cast<float>((pixel.y() + 0.5) / atlas.image.rows));
+    }
+    for (const dense::Triangle& t : cut.triangles)
+      for (const std::size_t k : {std::size_t{0}, turned ? std::size_t{2} : std::size_t{1},
+                                  turned ? std::size_t{1} : std::size_t{2}})
+        mesh.indices.push_back(first + t[k]);
+  }
+  return mesh;
+}
+
+// The parts of a glTF buffer, each from a multiple of four on.
+class Buffer {
+ public:
+  std::string bytes;
+  Json views = Json::array();
+
+  std::size_t add(const std::string& part, int target) {
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    Json view = {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", part.size()}};
+    if (target != 0) view["target"] = target;
+    bytes += part;
+    views.push_back(view);
+    return views.size() - 1;
+  }
+};
+
+template <class Vector>
+std::string packed(const std::vector<Vector>& vectors) {
+  std::string bytes;
+  for (const Vector& v : vectors)
+    for (const float x : v) put(bytes, x);
+  return bytes;
+}
+
+// The turn from the map to glTF's world, y up, as x, y, z, w.
+std::array<double, 4> turn_of(const Vec3<double>& up) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(up, Vec3<double>::UnitY());
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+}  // namespace
+
+void write_glb(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
+               const Vec3<double>& up) {
+  constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963, kFloat = 5126, kUnsigned = 5125;  // glTF's names
+  constexpr int kQuality = 92;
+  const Mesh mesh = mesh_of(model, atlas);
+  Vec3<float> low = Vec3<float>::Zero(), high = low;
+  if (!mesh.places.empty()) low = high = mesh.places.front();
+  for (const Vec3<float>& x : mesh.places) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  std::string indices;
+  for (const std::uint32_t i : mesh.indices) put(indices, i);
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", atlas.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  Buffer buffer;
+  const std::size_t places = buffer.add(packed(mesh.places), kArrayBuffer),
+                    normals = buffer.add(packed(mesh.normals), kArrayBuffer),
+                    textures = buffer.add(packed(mesh.textures), kArrayBuffer),
+                    triangles = buffer.add(indices, kIndexBuffer),
+                    image = buffer.add({jpeg.begin(), jpeg.end()}, 0);
+  const std::size_t vertices = mesh.places.size();
+  const Json accessors = {
+      {{"bufferView", places},
+       {"componentType", kFloat},
+       {"count", vertices},
+       {"type", "VEC3"},
+       {"min", {low.x(), low.y(), low.z()}},
+       {"max", {high.x(), high.y(), high.z()}}},
+      {{"bufferView", normals}, {"componentType", kFloat}, {"count", vertices}, {"type", "VEC3"}},
+      {{"bufferView", textures}, {"componentType", kFloat}, {"count", vertices}, {"type", "VEC2"}},
+      {{"bufferView", triangles},
+       {"componentType", kUnsigned},
+       {"count", mesh.indices.size()},
+       {"type", "SCALAR"}}};
+  buffer.bytes.resize((buffer.bytes.size() + 3) / 4 * 4, '\0');
+  const Json primitive = {
+      {"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}, {"indices", 3}, {"material", 0}};
+  const Json material = {
+      {"name", "planes"},
+      {"pbrMetallicRoughness",
+       {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+      {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+  const auto list = [](Json element) { return Json::array({std::move(element)}); };
+  const Json gltf = {{"asset", {{"version", "2.0"}, {"generator", std::string("sslam ") + SSLAM_VERSION}}},
+                     {"extensionsUsed", {"KHR_materials_unlit"}},
+                     {"scene", 0},
+                     {"scenes", list({{"nodes", {0}}})},
+                     {"nodes", list({{"mesh", 0}, {"name", "model"}, {"rotation", turn_of(up)}})},
+                     {"meshes", list({{"primitives", list(primitive)}})},
+                     {"materials", list(material)},
+                     {"textures", list({{"source", 0}})},
+                     {"images", list({{"bufferView", image}, {"mimeType", "image/jpeg"}})},
+                     {"accessors", accessors},
+                     {"bufferViews", buffer.views},
+                     {"buffers", list({{"byteLength", buffer.bytes.size()}})}};
+  std::string json = gltf.dump();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string head;
+  put(head, std::uint32_t{0x46546C67});  // "glTF"
+  put(head, std::uint32_t{2});
+  put(head, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.bytes.size()));
+  put(head, static_cast<std::uint32_t>(json.size()));
+  put(head, std::uint32_t{0x4E4F534A});  // "JSON"
+  std::string second;
+  put(second, static_cast<std::uint32_t>(buffer.bytes.size()));
+  put(second, std::uint32_t{0x004E4942});  // "BIN"
+  io::OutputFile file(path);
+  file.stream() << head << json << second << buffer.bytes;
+  file.commit();
+}
+
+void write_model_ply(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas) {
+  std::string vertices, faces;
+  std::uint32_t vertex_count = 0, face_count = 0;
+  for (const Chart& chart : atlas.charts) {
+    const dense::DensePlane& plane = model.planes[chart.plane];
+    const dense::PlaneCells& cells = plane.cells;
+    const dense::Polygon& polygon = plane.polygons[chart.polygon];
+    std::vector<std::int64_t> ids(static_cast<std::size_t>((cells.columns + 1) * (cells.rows + 1)), -1);
+    const auto vertex = [&](int c, int r) {
+      std::int64_t& id = ids[static_cast<std::size_t>(r * (cells.columns + 1) + c)];
+      if (id >= 0) return static_cast<std::int32_t>(id);
+      const Vec2<double> u = cells.corner(c, r), pixel = atlas.pixel(chart, u);
+      for (const float x : Vec3<float>(cells.place(u).cast<float>())) put(vertices, x);
+      const cv::Vec3b& colour =
+          atlas.image(std::clamp(static_cast<int>(std::lround(pixel.y())), 0, atlas.image.rows - 1),
+                      std::clamp(static_cast<int>(std::lround(pixel.x())), 0, atlas.image.cols - 1));
+      for (const int channel : {2, 1, 0}) put(vertices, colour[channel]);
+      id = vertex_count++;
+      return static_cast<std::int32_t>(id);
+    };
+    for (int r = 0; r < cells.rows; ++r)
+      for (int c = 0; c < cells.columns; ++c) {
+        const Vec2<double> middle = cells.corner(c, r) + Vec2<double>::Constant(cells.cell / 2);
+        if (!cells.is_solid(c, r) || !dense::inside(polygon.outer, middle)) continue;
+        std::array<std::int32_t, 4> ring{vertex(c, r), vertex(c + 1, r), vertex(c + 1, r + 1),
+                                         vertex(c, r + 1)};
+        if (plane.seen_from < 0) std::swap(ring[1], ring[3]);
+        put(faces, std::uint8_t{4});
+        for (const std::int32_t id : ring) put(faces, id);
+        ++face_count;
+      }
+  }
+  io::OutputFile file(path);
+  file.stream()
+      << "ply\nformat binary_little_endian 1.0\ncomment squares on the planes of a map\nelement vertex "
+      << vertex_count
+      << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar "
+         "green\nproperty uchar blue\nelement face "
+      << face_count << "\nproperty list uchar int vertex_indices\nend_header\n"
+      << vertices << faces;
+  file.commit();
+}
+
+}  // namespace sslam::cli

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sslam run --dense` on a rendered room: the files of the model.
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/room_copy.hpp"
+#include "support/catch.hpp"
+
+namespace fs = std::filesystem;
+using namespace sslam::testing;
+
+namespace dense_run_test {
+
+std::uint32_t word_at(const std::string& bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+struct Glb {
+  nlohmann::json json;
+  std::string binary;
+};
+
+// Of glTF 2.0's container: a head, a chunk of JSON, a chunk of bytes.
+Glb read_glb(const fs::path& file) {
+  const std::string bytes = text_of(file);
+  REQUIRE(bytes.size() > 20);
+  REQUIRE(bytes.substr(0, 4) == "glTF");
+  REQUIRE(word_at(bytes, 4) == 2);
+  REQUIRE(word_at(bytes, 8) == bytes.size());
+  const std::size_t json_size = word_at(bytes, 12);
+  REQUIRE(bytes.substr(16, 4) == "JSON");
+  REQUIRE(json_size % 4 == 0);
+  const std::size_t second = 20 + json_size;
+  REQUIRE(word_at(bytes, second) == bytes.size() - second - 8);
+  REQUIRE(bytes.substr(second + 4, 4) == std::string("BIN\0", 4));
+  return {nlohmann::json::parse(bytes.substr(20, json_size)), bytes.substr(second + 8)};
+}
+
+std::string part(const Glb& glb, std::size_t view) {
+  const auto& v = glb.json["bufferViews"][view];
+  return glb.binary.substr(v["byteOffset"], v["byteLength"]);
+}
+
+}  // namespace dense_run_test
+
+TEST_CASE("run --dense writes a model that viewers can open, and a run without it takes the model away") {
+  using namespace dense_run_test;
+  const RoomCopy copy;
+  const Outcome outcome = copy.run("--dense --no-report");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const auto metrics = copy.metrics();
+  REQUIRE(metrics["settings"]["dense"] == true);
+  REQUIRE(metrics["dense"]["planes"].size() >= 3);
+  REQUIRE(metrics["dense"]["area"].get<double>() > 0);
+  REQUIRE(metrics["files"].contains("model.glb"));
+
+  const Glb glb = read_glb(copy.out / "model.glb");
+  const auto& accessors = glb.json["accessors"];
+  const std::size_t vertices = accessors[0]["count"], indices = accessors[3]["count"];
+  REQUIRE(indices >= 3 * 2 * metrics["dense"]["planes"].size());
+  REQUIRE(indices % 3 == 0);
+  REQUIRE(part(glb, accessors[0]["bufferView"]).size() == 12 * vertices);
+  REQUIRE(part(glb, accessors[2]["bufferView"]).size() == 8 * vertices);
+  const std::string triangles = part(glb, accessors[3]["bufferView"]);
+  REQUIRE(triangles.size() == 4 * indices);
+  for (std::size_t i = 0; i < indices; ++i)
+    if (word_at(triangles, 4 * i) >= vertices) FAIL("an index beyond the vertices");
+  const std::string jpeg = part(glb, glb.json["images"][0]["bufferView"]);
+  const cv::Mat atlas = cv::imdecode(std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+  REQUIRE(atlas.cols == metrics["dense"]["texture_size"][0]);
+  REQUIRE(atlas.rows == metrics["dense"]["texture_size"][1]);
+
+  const std::string ply = text_of(copy.out / "model.ply");
+  REQUIRE(ply.rfind("ply\nformat binary_little_endian 1.0\n", 0) == 0);
+  const auto count_of = [&](const std::string& element) {
+    return std::stoul(ply.substr(ply.find("element " + element) + 9 + element.size()));
+  };
+  const std::size_t body = ply.find("end_header\n") + 11;
+  REQUIRE(ply.size() - body == 15 * count_of("vertex") + 17 * count_of("face"));
+
+  REQUIRE(copy.run("--no-report").code == 0);
+  REQUIRE_FALSE(fs::exists(copy.out / "model.glb"));
+  REQUIRE_FALSE(fs::exists(copy.out / "model.ply"));
+}
