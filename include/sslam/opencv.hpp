@@ -15,6 +15,8 @@
 #include "sslam/opencv/camera/same_camera.hpp"
 #include "sslam/opencv/camera/storage_file.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
+#include "sslam/opencv/camera/wide_lens.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 #include "sslam/opencv/camera/working_size.hpp"
 #include "sslam/opencv/image_frontend.hpp"
 #include "sslam/opencv/image_input.hpp"

@@ -187,6 +187,21 @@ TEST_CASE("RealSense, Open3D, KITTI and rows of numbers") {
                       kWrittenLens, 0, 0);
 }
 
+TEST_CASE("Replica's camera is nested, and its scale is that of the depth images") {
+  const std::string numbers = "\"fx\": 600.0, \"fy\": 601.0, \"cx\": 599.5, \"cy\": 339.5, ";
+  const CameraFile file =
+      read_written("{\"camera\": {\"w\": 1200, \"h\": 680, " + numbers + "\"scale\": 6553.5}}");
+  CHECK(file.camera.width == 1200);
+  CHECK(file.camera.height == 680);
+  CHECK(file.camera.pinhole.fy == 601);
+  CHECK(file.depth_factor == 6553.5);
+  const CameraFile config = read_written(
+      "cam:\n  H: 680\n  W: 1200\n  fx: 600\n  fy: 600\n  cx: 599.5\n  cy: 339.5\n  png_depth_scale: "
+      "6553.5\n");
+  CHECK(config.camera.height == 680);
+  CHECK(config.depth_factor == 6553.5);
+}
+
 TEST_CASE("Lenses of other models are fitted where they can be, and refused with the way out where not") {
   const std::string size = "Camera.width: 640\nCamera.height: 480\n";
   const std::string pinhole = "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 319.5\nCamera.cy: 239.5\n";
@@ -209,7 +224,7 @@ TEST_CASE("Lenses of other models are fitted where they can be, and refused with
   check_refused(pinhole + size + "Camera.model: fisheye\nCamera.k1: 0.1\nCamera.p1: 0.01\n",
                 "Camera.p1 belongs to a pinhole's lens");
   check_refused("cam0:\n  camera_model: omni\n  intrinsics: [1, 500, 500, 320, 240]\n",
-                "'omni' is not known here");
+                "'omni' is no pinhole's; undistort");
   check_refused("0.5 0.66 0.5 0.5 2.8\n1280 1024\ncrop\n640 480\n", "'FOV' sees more than a pinhole can");
 }
 

@@ -73,16 +73,13 @@ namespace detail {
   }
 }
 
-}  // namespace detail
-
-// As read_camera_file, of text that is no file; `source` says where it is from.
-[[nodiscard]] inline CameraFile parse_camera_text(const std::string& text, const std::string& source) {
+[[nodiscard]] inline CameraFile read_any_camera(const std::string& text, const std::string& source) {
   const auto first = text.find_first_not_of(" \t\r\n");
   try {
     if (first != std::string::npos && text[first] == '<')
-      return detail::read_camera_tree(detail::parse_xml(text, source), source);
-    if (auto rows = detail::read_camera_rows(text, source)) return *rows;
-    return detail::read_camera_tree(TextTree::parse(text, source), source);
+      return read_camera_tree(parse_xml(text, source), source);
+    if (auto rows = read_camera_rows(text, source)) return *rows;
+    return read_camera_tree(TextTree::parse(text, source), source);
   } catch (const Error& error) {
     std::string line = error.what();  // keys and values in quotes may span lines
     std::replace(line.begin(), line.end(), '\n', ' ');
@@ -90,9 +87,29 @@ namespace detail {
   }
 }
 
-// Throws Error, in one line, when the file cannot be read, is of no known kind, has a lens that sslam has
-// not, or misses a key that must be there; also when a number is none, not finite or not positive where it
-// must be.
+}  // namespace detail
+
+// As read_camera_file, of text that is no file; `source` says where it is from.
+[[nodiscard]] inline CameraFile parse_camera_text(const std::string& text, const std::string& source) {
+  CameraFile read = detail::read_any_camera(text, source);
+  if (read.wide) throw Error(read.wide_reason);
+  return read;
+}
+
+// Also of a lens that is too wide for a pinhole, `wide` of the answer. Throws Error as read_camera_file.
+[[nodiscard]] inline CameraFile read_wide_camera_file(const std::filesystem::path& path) {
+  CameraFile read = detail::read_any_camera(detail::read_camera_text(path), path.string());
+  if (read.wide) {
+    read.wide->pinhole = read.camera.pinhole;
+    read.wide->width = read.camera.width;
+    read.wide->height = read.camera.height;
+  }
+  return read;
+}
+
+// Throws Error, in one line, when the file cannot be read, is of no known kind, has a lens that is not near a
+// radial-tangential one, or misses a key that must be there; also when a number is none, not finite or not
+// positive where it must be.
 [[nodiscard]] inline CameraFile read_camera_file(const std::filesystem::path& path) {
   return parse_camera_text(detail::read_camera_text(path), path.string());
 }

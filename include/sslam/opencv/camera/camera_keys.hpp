@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,15 +12,18 @@
 
 #include "sslam/core/error.hpp"
 #include "sslam/core/text_node.hpp"
-#include "sslam/geometry/camera.hpp"
+#include "sslam/opencv/camera/wide_lens.hpp"
 
 namespace sslam {
 
 struct CameraFile {
-  Camera<double> camera;           // width and height are 0 when the file does not give them
-  double depth_factor = 0;         // depth image units a metre; 0: not given
-  double frame_rate = 0;           // frames a second; 0: not given
-  std::vector<std::string> notes;  // what the user should know about how the file was read
+  Camera<double> camera;    // width and height are 0 when the file does not give them
+  double depth_factor = 0;  // depth image units a metre; 0: not given
+  double frame_rate = 0;    // frames a second; 0: not given
+  // A lens that is no radial-tangential one: `camera` has no distortion then, and is its plane alone.
+  std::optional<WideLens> wide{};
+  std::string wide_reason{};         // why it is none
+  std::vector<std::string> notes{};  // what the user should know about how the file was read
 };
 
 namespace detail {

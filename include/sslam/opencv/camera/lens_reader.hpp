@@ -63,13 +63,27 @@ template <std::size_t N>
   }
 }
 
+// Whether an image of the lens can be undistorted to a pinhole's view, where no other lens comes near it.
+[[nodiscard]] constexpr bool is_wide(LensModel model) noexcept {
+  return model == LensModel::kFisheye || model == LensModel::kFov;
+}
+
+// Its plane and size are those of the file when all of it is read.
+inline void set_wide_lens(const CameraKeys& keys, WideModel model, const std::array<double, 5>& k,
+                          const std::string& reason, CameraFile& file) {
+  file.wide.emplace();
+  file.wide->model = model;
+  file.wide->k = k;
+  file.wide_reason = keys.file() + ": " + reason;
+}
+
 // `values` in the order of the model, or as many of them as there are; the file's pinhole and size are known
 // by now, if it has them.
 inline void set_lens(const CameraKeys& keys, const std::string& model, const std::vector<double>& values,
                      CameraFile& file) {
   const LensModel known = lens_model(model);
   const bool straight = std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
-  if (known == LensModel::kOther) refuse_lens(keys, model);
+  if (known == LensModel::kOther || count_before_focal(known) > 0) refuse_lens(keys, model);
   if (straight && known != LensModel::kFisheye) return;
   if (known == LensModel::kNone)
     keys.fail("the lens model '" + model +
@@ -89,11 +103,18 @@ inline void set_lens(const CameraKeys& keys, const std::string& model, const std
     keys.fail(name + " is fitted within the image; expected its width and height beside it");
   const LensFit fit = fit_model(keys, rational ? "rational" : model, values, file.camera);
   const double bearable = std::max(0.5, 0.001 * file.camera.width);  // pixels
-  if (!fit.covers) keys.fail(name + " sees more than a pinhole can; " + kWayOut);
+  if (!fit.covers && !is_wide(known)) keys.fail(name + " sees more than a pinhole can; " + kWayOut);
   char worst[32];
   std::snprintf(worst, sizeof worst, "%.2g", fit.worst);
-  if (fit.worst > bearable)
-    keys.fail(name + " is not near a radial-tangential one: " + worst + " pixels off; " + kWayOut);
+  if (!fit.covers || fit.worst > bearable) {
+    const std::string why =
+        fit.covers ? " is not near a radial-tangential one: " + std::string(worst) + " pixels off; "
+                   : " sees more than a pinhole can; ";
+    if (!is_wide(known)) keys.fail(name + why + kWayOut);
+    set_wide_lens(keys, known == LensModel::kFov ? WideModel::kFov : WideModel::kFisheye,
+                  leading<5>(keys, model, values), name + why + kWayOut, file);
+    return;
+  }
   lens = fit.lens;
   file.notes.push_back(keys.file() + ": " + name + " is taken as radial-tangential, at most " + worst +
                        " pixels off within the image");

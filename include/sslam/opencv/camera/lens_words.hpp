@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -11,7 +12,18 @@
 namespace sslam {
 namespace detail {
 
-enum class LensModel { kNone, kRadTan, kInverseRadTan, kRational, kFisheye, kFov, kOther };
+enum class LensModel {
+  kNone,
+  kRadTan,
+  kInverseRadTan,
+  kRational,
+  kFisheye,
+  kFov,
+  kOmni,
+  kDoubleSphere,
+  kUnified,
+  kOther
+};
 
 // Small letters and digits alone: RADIAL-TANGENTIAL and radial_tangential are one word.
 [[nodiscard]] inline std::string plain_word(std::string_view text) {
@@ -39,7 +51,16 @@ enum class LensModel { kNone, kRadTan, kInverseRadTan, kRational, kFisheye, kFov
     return LensModel::kFisheye;
   if (is({"inversebrownconrady", "distortioninversebrownconrady"})) return LensModel::kInverseRadTan;
   if (is({"fov", "atan"})) return LensModel::kFov;
+  if (is({"omni", "mei", "omnidirectional"})) return LensModel::kOmni;
+  if (is({"ds", "doublesphere"})) return LensModel::kDoubleSphere;
+  if (is({"eucm", "extendedunified"})) return LensModel::kUnified;
   return LensModel::kOther;
+}
+
+// How many numbers Kalibr's wide models have before fx: xi; xi, alpha; alpha, beta. 0: it is none of them.
+[[nodiscard]] constexpr std::size_t count_before_focal(LensModel model) noexcept {
+  if (model == LensModel::kOmni) return 1;
+  return model == LensModel::kDoubleSphere || model == LensModel::kUnified ? 2 : 0;
 }
 
 }  // namespace detail

@@ -2,6 +2,8 @@
 // Calibrations as matrices and lists of numbers: OpenCV, ROS, Open3D, KITTI, Kalibr, EuRoC and TUM-VI.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,15 +52,43 @@ inline CameraFile read_matrix_camera(const CameraKeys& keys, const CameraKeys::N
   return file;
 }
 
+inline void set_kalibr_wide_lens(const CameraKeys& keys, const std::string& name, LensModel model,
+                                 const std::vector<double>& intrinsics, CameraFile& file) {
+  std::vector<double> k(intrinsics.begin(),
+                        intrinsics.begin() + static_cast<std::ptrdiff_t>(count_before_focal(model)));
+  const std::vector<double> lens =
+      keys.numbers({"distortion_coeffs", "distortion_coefficients"}, "distortion coefficients");
+  const LensModel plane = lens_model(keys.text({"distortion_model"}));
+  const bool straight = std::all_of(lens.begin(), lens.end(), [](double value) { return value == 0; });
+  if (!straight && (model != LensModel::kOmni || plane != LensModel::kRadTan))
+    keys.fail(keys.where() + "distortion_coeffs: expected none, or radtan's with the model omni");
+  if (model == LensModel::kOmni) k.insert(k.end(), lens.begin(), lens.end());
+  if (model == LensModel::kDoubleSphere ? !(k[0] > -1 && k[0] < 1 && k[1] >= 0 && k[1] <= 1)
+      : model == LensModel::kUnified    ? !(k[0] >= 0 && k[0] <= 1 && k[1] > 0)
+                                        : !(k[0] >= 0))
+    keys.fail(keys.where() + "intrinsics: the first numbers are none of the model '" + name +
+              "'; expected omni: xi fx fy cx cy; ds: xi alpha fx fy cx cy; eucm: alpha beta fx fy cx cy");
+  set_wide_lens(keys,
+                model == LensModel::kOmni           ? WideModel::kOmni
+                : model == LensModel::kDoubleSphere ? WideModel::kDoubleSphere
+                                                    : WideModel::kUnified,
+                leading<5>(keys, name, k), "the lens model '" + name + "' is no pinhole's; " + kWayOut, file);
+}
+
 // Kalibr's cam0, and the sensor.yaml of EuRoC, TUM-VI and ASL.
 inline CameraFile read_kalibr(const CameraKeys& keys) {
   CameraFile file;
   const std::string camera = keys.text({"camera_model"});
-  if (!camera.empty() && plain_word(camera) != "pinhole") refuse_lens(keys, camera);
+  const LensModel model = lens_model(camera);
+  const std::size_t first = count_before_focal(model);
+  if (first == 0 && !camera.empty() && plain_word(camera) != "pinhole") refuse_lens(keys, camera);
   const std::vector<double> values = keys.numbers({"intrinsics"}, "fx fy cx cy");
-  if (values.size() != 4 || !(values[0] > 0) || !(values[1] > 0))
+  if (first == 0 && (values.size() != 4 || !(values[0] > 0) || !(values[1] > 0)))
     keys.fail(keys.where() + "intrinsics: expected the four numbers fx fy cx cy, fx and fy greater than 0");
-  file.camera.pinhole = {values[0], values[1], values[2], values[3]};
+  if (values.size() != first + 4 || !(values[first] > 0) || !(values[first + 1] > 0))
+    keys.fail(keys.where() + "intrinsics: expected " + std::to_string(first) + " numbers of the model '" +
+              camera + "' and then fx fy cx cy, fx and fy greater than 0");
+  file.camera.pinhole = {values[first], values[first + 1], values[first + 2], values[first + 3]};
   const std::vector<double> size = keys.numbers({"resolution"}, "the width and the height in pixels");
   if (size.size() == 2) {
     const TextNode& node = *keys.map().find("resolution");
@@ -67,8 +97,11 @@ inline CameraFile read_kalibr(const CameraKeys& keys) {
   } else if (!size.empty()) {
     keys.fail(keys.where() + "resolution: expected two numbers, the width and the height in pixels");
   }
-  set_lens(keys, keys.text({"distortion_model"}),
-           keys.numbers({"distortion_coeffs", "distortion_coefficients"}, "distortion coefficients"), file);
+  if (first > 0)
+    set_kalibr_wide_lens(keys, camera, model, values, file);
+  else
+    set_lens(keys, keys.text({"distortion_model"}),
+             keys.numbers({"distortion_coeffs", "distortion_coefficients"}, "distortion coefficients"), file);
   file.frame_rate = keys.optional_positive({"rate_hz"}, "frames a second");
   static const std::vector<std::string> known{
       "camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "distortion_coefficients",

@@ -154,17 +154,19 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
   keys.fail(keys.where() + "fl_x is missing; expected " + kFocal);
 }
 
-// fx, fy and cx, cy or ppx, ppy by these names: RealSense, and others of their own.
+// fx, fy and cx, cy or ppx, ppy by these names: RealSense, Replica, NICE-SLAM, and others of their own.
 inline CameraFile read_plain_names(const CameraKeys& keys) {
   CameraFile file;
   const std::vector<double> values =
       keys.numbers({"coeffs", "coefficients", "distortion_coeffs", "distortion"}, "distortion coefficients");
-  file.camera.width = keys.optional_pixels({"width", "w", "image_width"});
-  file.camera.height = keys.optional_pixels({"height", "h", "image_height"});
+  file.camera.width = keys.optional_pixels({"width", "w", "image_width", "W"});
+  file.camera.height = keys.optional_pixels({"height", "h", "image_height", "H"});
   std::string model = keys.text({"model", "distortion_model", "camera_model", "type"});
   read_named_pinhole(keys, "", model.empty() || !values.empty() ? "pinhole" : model, file);
   if (!values.empty()) set_lens(keys, model.empty() ? "plumb_bob" : model, values, file);
   file.frame_rate = keys.optional_positive({"fps"}, "frames a second");
+  file.depth_factor = keys.optional_positive({"scale", "png_depth_scale", "depth_factor"},
+                                             "depth image units a metre");  // Replica, NICE-SLAM
   return file;
 }
 
