@@ -172,6 +172,17 @@ TEST_CASE("Replica layout: a row a frame") {
   CHECK(contains(io::open_dataset(scratch.path()).truth_problem, "traj.txt"));
 }
 
+TEST_CASE("Replica layout: the camera lies in the folder, or beside it for all rooms") {
+  const ScratchFolder scratch;
+  scratch.write("office0/results/frame000000.jpg");
+  CHECK(io::open_dataset(scratch.path() / "office0").camera_file.empty());
+  const auto beside = scratch.write("cam_params.json", "{}");
+  for (const char* place : {"office0", "office0/"})
+    CHECK(std::filesystem::equivalent(io::open_dataset(scratch.path() / place).camera_file, beside));
+  const auto own = scratch.write("office0/cam_params.json", "{}");
+  CHECK(std::filesystem::equivalent(io::open_dataset(scratch.path() / "office0").camera_file, own));
+}
+
 TEST_CASE("ScanNet layout: poses of minus infinity are none, depth is left out") {
   const ScratchFolder scratch;
   for (int i = 0; i < 12; ++i) {
@@ -196,6 +207,71 @@ TEST_CASE("ScanNet layout: poses of minus infinity are none, depth is left out")
   CHECK(contains(dataset.warnings[0], "depth left out"));
   CHECK(contains(dataset.warnings[1], "1 of 12 poses mean 'no pose here'"));
   CHECK(dataset.camera_file.filename() == "intrinsic_color.txt");
+}
+
+TEST_CASE("ScanNet layout: depth that shows the same as colour is taken, in millimetres") {
+  const ScratchFolder scratch;
+  scratch.write("color/0.jpg");
+  scratch.write("depth/0.png");
+  scratch.write("pose/0.txt", moved(0, '\n'));
+  scratch.write("intrinsic/intrinsic_color.txt", "1170 0 648 0\n0 1170 484 0\n0 0 1 0\n0 0 0 1\n");
+  scratch.write("intrinsic/intrinsic_depth.txt", "577.9 0 319.5 0\n0 577.9 239.5 0\n0 0 1 0\n0 0 0 1\n");
+  const io::Dataset same = io::open_dataset(scratch.path());
+  CHECK(contains(same.frames[0].depth, "0.png"));
+  CHECK(same.depth_factor == 1000);
+  CHECK(same.warnings.empty());
+  scratch.write("intrinsic/intrinsic_depth.txt", "365 0 256 0\n0 365 212 0\n0 0 1 0\n0 0 0 1\n");
+  const io::Dataset other = io::open_dataset(scratch.path());
+  CHECK(other.frames[0].depth.empty());
+  REQUIRE(other.warnings.size() == 1);
+  CHECK(contains(other.warnings[0], "depth left out"));
+}
+
+TEST_CASE("Numbered colour and depth images without anything else are colour and depth folders") {
+  const ScratchFolder scratch;
+  for (int i = 0; i < 11; ++i) {
+    scratch.write("rgb/" + std::to_string(i) + ".png");
+    scratch.write("depth/" + std::to_string(i) + ".png");
+  }
+  const io::Dataset dataset = io::open_dataset(scratch.path());
+  CHECK(dataset.layout == io::Layout::kColourDepth);
+  REQUIRE(dataset.frames.size() == 11);
+  CHECK(dataset.frames[10].stamp == 10 / 30.0);
+  CHECK(contains(dataset.frames[10].depth, "10.png"));
+  CHECK(dataset.ground_truth.empty());
+  scratch.write("groundtruth.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");  // counts frames
+  CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kIclNuim);
+}
+
+TEST_CASE("iMAP's rooms: numbers in two kinds of names, and a matrix a row") {
+  const ScratchFolder scratch;
+  std::string rows;
+  for (int i = 0; i < 12; ++i) {
+    scratch.write("rgb/rgb_" + std::to_string(i) + ".png");
+    scratch.write("depth/depth_" + std::to_string(i) + ".png");
+    rows += moved(i, ' ');
+  }
+  for (const char* name : {"traj_w_c.txt", "traj.txt"}) {
+    const auto file = scratch.write(name, rows);
+    const io::Dataset dataset = io::open_dataset(scratch.path());
+    CHECK(dataset.layout == io::Layout::kColourDepth);
+    CHECK(dataset.warnings.empty());
+    REQUIRE(dataset.frames.size() == 12);
+    CHECK(contains(dataset.frames[11].depth, "depth_11.png"));
+    REQUIRE(dataset.world_from_cam(dataset.frames[11]) != nullptr);
+    CHECK(dataset.world_from_cam(dataset.frames[11])->translation.x() == 11);
+    std::filesystem::remove(file);
+  }
+  // Some images have gone: rows are of the numbers then.
+  for (int i = 0; i < 5; ++i)
+    std::filesystem::remove(scratch.path() / ("rgb/rgb_" + std::to_string(i) + ".png"));
+  scratch.write("traj_w_c.txt", rows);
+  const io::Dataset rest = io::open_dataset(scratch.path());
+  REQUIRE(rest.frames.size() == 7);
+  REQUIRE(rest.world_from_cam(rest.frames[0]) != nullptr);
+  CHECK(rest.world_from_cam(rest.frames[0])->translation.x() == 5);
+  scratch.write("traj_w_c.txt", "nonsense here\n");
+  CHECK(contains(io::open_dataset(scratch.path()).truth_problem, "traj_w_c.txt"));
 }
 
 TEST_CASE("Colour and depth side by side are paired by name, else by time") {
@@ -260,6 +336,11 @@ TEST_CASE("A folder that is nearly a dataset is told what it lacks") {
   SECTION("Replica") {
     scratch.write("traj.txt");
     CHECK(said("looks like Replica: results/frame000000.jpg is missing"));
+  }
+  SECTION("a transforms.json of another name, or without its images") {
+    scratch.write("transforms_train.json", "{}");
+    CHECK(said(
+        "looks like nerfstudio or instant-ngp: transforms.json with a file_path in its frames is missing"));
   }
   SECTION("a table of an inertial sensor") {
     scratch.write("data.csv", "1,2\n");

@@ -39,6 +39,20 @@ inline constexpr double kIclNuimFrameRate = 30;
   return find_published_truth(root);
 }
 
+// A folder whose numbered images are nobody's in particular: no list, no truth, no sensor beside them.
+[[nodiscard]] inline bool has_images_alone(const std::filesystem::path& root) {
+  std::error_code ignored;
+  for (const char* name : {"groundtruth.txt", "associations.txt", "depth.txt", "accelerometer.txt"})
+    if (std::filesystem::exists(root / name, ignored)) return false;
+  return find_published_truth(root).empty();
+}
+
+// With depth beside them, such images are colour and depth folders.
+[[nodiscard]] inline bool is_icl_nuim(const std::filesystem::path& root) {
+  return has_numbered_images(root) &&
+         !(has_images_alone(root) && !list_files(root / "depth", is_image_name).empty());
+}
+
 // Images with numbers for names are nothing special: a folder in the layout of TUM RGB-D that has lost its
 // rgb.txt may have them too, and its poses and stamps mean something else.
 inline void require_icl_nuim(const std::filesystem::path& root) {

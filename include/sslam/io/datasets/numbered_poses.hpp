@@ -50,6 +50,12 @@ inline constexpr double kReplicaFrameRate = 30, kKittiFrameRate = 10;
     dataset.frames.push_back(std::move(frame));
   }
   drop_bad_frames(dataset, root / "results");
+  // One camera for all of its rooms: it lies beside them.
+  const std::filesystem::path folder = std::filesystem::absolute(root / ".").lexically_normal().parent_path();
+  std::error_code missing;
+  for (const std::filesystem::path& place : {root, folder.parent_path()})
+    if (dataset.camera_file.empty() && std::filesystem::is_regular_file(place / "cam_params.json", missing))
+      dataset.camera_file = place / "cam_params.json";
   const std::filesystem::path poses = root / "traj.txt";
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(poses, ignored)) return dataset;

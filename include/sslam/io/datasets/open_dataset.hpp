@@ -57,7 +57,7 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_transforms_folder(root, options.frame_rate);
      }},
-    {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", has_numbered_images,
+    {Layout::kIclNuim, "ICL-NUIM", "rgb/N.png", is_icl_nuim,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_icl_nuim(root); }},
     {Layout::kColourDepth, "colour and depth folders", "color/ with depth/", is_colour_depth,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
