@@ -3,6 +3,7 @@
 
 #include "io/errors.hpp"
 #include "io/shared_data.hpp"
+#include "sslam/io/trajectories/colmap_images.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -195,4 +196,39 @@ TEST_CASE("Published ground truth files are read whole") {
   CHECK(read(testing::shared_data("tum_fr3_structure_notexture_far/groundtruth.txt")).size() == 2729);
   CHECK(read(testing::shared_data("icl_nuim_of_kt0/groundtruth.txt")).size() == 1507);
   CHECK(read(testing::shared_data("icl_nuim_lr_kt2_normals/livingRoom2.gt.freiburg")).size() == 880);
+}
+
+TEST_CASE("COLMAP's images are read from both of its forms, camera to world") {
+  const testing::ScratchFolder scratch;
+  // A quarter turn about z: world x is the camera's y. The camera stands at R' (-t).
+  const double half = std::sqrt(0.5);
+  const std::string text =
+      "# comment\n3 0.70710678118654752 0 0 0.70710678118654752 1 2 3 1 a b/10.png\n\n"
+      "4 1 0 0 0 0 0 -5 1 9.png\n1 2 -1\n";
+  const auto rows = io::split_rows(text);
+  const auto images = io::read_colmap_text("images.txt", rows);
+  REQUIRE(images.size() == 2);
+  CHECK(images[0].name == "a b/10.png");
+  CHECK((images[0].world_from_cam.translation - Vec3<double>(-2, 1, -3)).norm() < 1e-12);
+  CHECK((images[1].world_from_cam.translation - Vec3<double>(0, 0, 5)).norm() < 1e-12);
+  std::string bytes;
+  const auto put = [&bytes](auto value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  put(std::uint64_t{1});
+  put(std::int32_t{3});
+  for (const double value : {half, 0.0, 0.0, half, 1.0, 2.0, 3.0}) put(value);
+  put(std::int32_t{1});
+  bytes += std::string("10.png") + '\0';
+  put(std::uint64_t{1});
+  for (const double value : {1.0, 2.0}) put(value);
+  put(std::int64_t{-1});
+  const auto binary = io::read_colmap_binary(scratch.write("images.bin", bytes));
+  REQUIRE(binary.size() == 1);
+  CHECK(binary[0].name == "10.png");
+  CHECK((binary[0].world_from_cam.translation - Vec3<double>(-2, 1, -3)).norm() < 1e-12);
+  for (std::size_t cut = 0; cut < bytes.size(); ++cut)
+    CHECK(contains(
+        error_of([&] { (void)io::read_colmap_binary(scratch.write("images.bin", bytes.substr(0, cut))); }),
+        "is cut off"));
 }
