@@ -12,6 +12,7 @@
 #include "cli/results/folder_lock.hpp"
 #include "cli/results/keyframe_images.hpp"
 #include "cli/results/map_ply.hpp"
+#include "cli/results/mcap_export.hpp"
 #include "cli/results/nerfstudio.hpp"
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
@@ -92,8 +93,9 @@ std::string export_nerfstudio(const RunFolder& run, const fs::path& stage, const
                   " keyframes are in no row of frames.csv (an earlier run's?): left out, since their images "
                   "are not known");
   if (counts.missing > 0)
-    print_note("put " + std::to_string(counts.missing) + " images into " + (out / "images").string() +
-               ", by the names in transforms.json: the run's dataset is a video, or no longer there");
+    print_note(
+        "put " + std::to_string(counts.missing) + " images into " + (out / "images").string() +
+        ", by the names in transforms.json: the run's dataset is a video or a bag, or no longer there");
   return "transforms.json (" + std::to_string(counts.images) + " keyframes), points.ply (" +
          std::to_string(counts.points) + " points)";
 }
@@ -102,6 +104,11 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
                        const fs::path& out) {
   if (settings.format == "colmap") return export_colmap(run, stage);
   if (settings.format == "nerfstudio") return export_nerfstudio(run, stage, out);
+  if (settings.format == "mcap") {
+    const McapCounts counts = write_mcap_export(stage / "run.mcap", run);
+    return "run.mcap (" + std::to_string(counts.poses) + " poses, " + std::to_string(counts.points) +
+           " points, " + std::to_string(counts.lines) + " lines)";
+  }
   write_map_ply(stage / "map.ply", run.map, run.colours);
   return "map.ply";
 }
@@ -113,6 +120,7 @@ void run_export(const ExportSettings& settings) {
   const bool map = settings.format != "tum" && settings.format != "kitti";
   if (map ? run.map.empty() : run.trajectory.empty())
     refuse(settings, run, map ? "map.sslam" : "trajectory.txt");
+  if (settings.format == "mcap" && run.trajectory.empty()) refuse(settings, run, "trajectory.txt");
   print_warnings(run.problems);
   io::prepare_output_folder(out);
   const FolderLock lock = FolderLock::demand(out);
@@ -133,9 +141,11 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("--format", s->format,
                    "tum, kitti: the trajectory; ply: points and lines; colmap: a model of the keyframes "
-                   "with their points; nerfstudio: transforms.json and points")
+                   "with their points; nerfstudio: transforms.json and points; mcap: all of it as a "
+                   "recording of ROS 2, "
+                   "for Foxglove and RViz")
       ->required()
-      ->check(CLI::IsMember({"colmap", "kitti", "nerfstudio", "ply", "tum"}));
+      ->check(CLI::IsMember({"colmap", "kitti", "mcap", "nerfstudio", "ply", "tum"}));
   command
       ->add_option("-o,--out", s->out, "Folder for the files; default one of the format's name in the run's")
       ->type_name("DIR");
