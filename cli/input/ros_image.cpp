@@ -68,7 +68,7 @@ cv::Mat pixels_of(const io::ImageMessage& message, int type, cv::Size expected, 
   }
   if (step < row || message.data.size() < step * (height - 1) + row) {
     why = "has fewer bytes than " + std::to_string(width) + "x" + std::to_string(height) + " pixels of " +
-          std::string(message.encoding) + " need";
+          io::shown_word(message.encoding) + " need";
     return {};
   }
   cv::Mat image(static_cast<int>(height), static_cast<int>(width), type);
@@ -89,7 +89,7 @@ cv::Mat colour_of(const io::ImageMessage& message, cv::Size expected, std::strin
     return encoding.name == message.encoding;
   });
   if (known == kEncodings.end()) {
-    why = "has the encoding " + std::string(message.encoding.substr(0, 40)) + "; read are " + encoding_list();
+    why = "has the encoding " + io::shown_word(message.encoding) + "; read are " + encoding_list();
     return {};
   }
   const cv::Mat stored = pixels_of(message, known->type, expected, why);
@@ -107,7 +107,7 @@ cv::Mat colour_of(const io::ImageMessage& message, cv::Size expected, std::strin
 cv::Mat depth_of(const io::ImageMessage& message, std::string& why) {
   const bool metres = message.encoding == "32FC1";
   if (!metres && message.encoding != "16UC1" && message.encoding != "mono16") {
-    why = "has the encoding " + std::string(message.encoding.substr(0, 40)) + "; depth is 16UC1 or 32FC1";
+    why = "has the encoding " + io::shown_word(message.encoding) + "; depth is 16UC1 or 32FC1";
     return {};
   }
   cv::Mat depth = pixels_of(message, metres ? CV_32FC1 : CV_16UC1, {}, why);

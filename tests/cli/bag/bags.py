@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A rendered room as recordings of ROS 1 and ROS 2, written by programs that are not ours: rosbags and mcap."""
+import decimal
 import pathlib
 import re
 import struct
@@ -54,8 +55,7 @@ def read_png(path):
 
 
 def nanoseconds(text):
-    seconds, _, rest = text.partition(".")
-    return int(seconds) * 10**9 + int((rest + "0" * 9)[:9])
+    return int(decimal.Decimal(text).scaleb(9).to_integral_value())
 
 
 class Room:
@@ -89,10 +89,10 @@ class Room:
             if camera:
                 yield f"{prefix}/camera_info", "sensor_msgs/msg/CameraInfo", stamp, self.camera_info(header)
             if depth:
-                pixels = read_png(depth_file)
-                if depth == "32FC1":
-                    metres = pixels.astype(np.float32) / np.float32(1000)
-                    pixels = np.where(pixels == 0, np.float32("nan"), metres)
+                metres = read_png(depth_file) / 5000  # sslam's factor
+                pixels = np.where(metres == 0, np.nan, metres).astype(np.float32)
+                if depth == "16UC1":
+                    pixels = np.round(1000 * metres).astype(np.uint16)
                 yield f"{prefix}/depth/image_raw", "sensor_msgs/msg/Image", stamp, raw(header, pixels, depth)
         for stamp, (x, y, z, qx, qy, qz, qw) in self.truth:
             yield ("/mocap/camera", "geometry_msgs/msg/TransformStamped", stamp,

@@ -224,3 +224,10 @@ TEST_CASE("What is no bag, or one of another kind, gets one line") {
                  }),
                  "holds no .mcap file"));
 }
+
+TEST_CASE("Names in a bag cannot break a message into lines") {
+  const ScratchFolder scratch;
+  const std::string bad = connection_1(1, "/a\nb", kImage) + message_1(1, image_1(1, "x\ny")) +
+                          connection_1(2, "/c\n", kImage) + message_1(2, image_1(1));
+  CHECK(is_one_line(error_of([&] { (void)read(scratch.path() / "a.bag", bag_1(bad)); })));
+}

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -18,6 +19,15 @@ namespace sslam::io {
 // The nearest double.
 [[nodiscard]] inline double seconds_of(std::int64_t nanoseconds) noexcept {
   return static_cast<double>(static_cast<long double>(nanoseconds) / 1e9L);
+}
+
+// A name of a file's own, fit to be shown: of so many letters at most, and in one line.
+[[nodiscard]] inline std::string shown_word(std::string_view text) {
+  constexpr std::size_t kMost = 200;
+  std::string word(text.substr(0, kMost));
+  for (char& c : word)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '"') c = '?';
+  return word;
 }
 
 struct MessageHeader {
@@ -84,10 +94,10 @@ struct CameraInfoMessage {
 
 [[nodiscard]] inline CameraInfoMessage read_camera_info(MessageFields fields) {
   CameraInfoMessage info;
-  info.frame = read_header(fields).frame;
+  info.frame = shown_word(read_header(fields).frame);
   info.height = fields.number<std::uint32_t>();
   info.width = fields.number<std::uint32_t>();
-  info.model = fields.text();
+  info.model = shown_word(fields.text());
   constexpr std::size_t kMostCoefficients = 14;
   info.d = fields.doubles(kMostCoefficients);
   info.k = fields.doubles<9>();

@@ -105,8 +105,8 @@ class Collector {
     topic_of_[number] = known->second;
     if (!added) return;
     BagTopic topic;
-    topic.name = channel.topic;
-    topic.type = channel.type;
+    topic.name = shown_word(channel.topic);
+    topic.type = shown_word(channel.type);
     topic.wire = channel.encoding == "cdr" ? Wire::kCdr : Wire::kRos1;
     const bool ros = channel.encoding == "cdr" || channel.encoding == "ros1";
     topic.kind = ros ? kind_of(channel.type) : BagKind::kOther;
@@ -156,10 +156,11 @@ class Collector {
       if (!topic.camera) topic.camera = read_camera_info(fields);
     } else {
       const PoseMessage pose = read_child_pose(fields);
+      const std::string child = shown_word(pose.child);
       constexpr std::size_t kMostFrames = 1000;
-      if (topic.poses.size() >= kMostFrames && topic.poses.find(pose.child) == topic.poses.end())
+      if (topic.poses.size() >= kMostFrames && topic.poses.find(child) == topic.poses.end())
         throw Error("has the poses of more than 1000 frames");
-      Trajectory& poses = topic.poses[std::string(pose.child)];
+      Trajectory& poses = topic.poses[child];
       demand_room(poses.size());
       poses.push_back({seconds_of(pose.stamp), pose.world_from_child});
     }
@@ -168,13 +169,13 @@ class Collector {
   static void describe(BagTopic& topic, const MessageFields& fields) {
     if (topic.kind == BagKind::kCompressedImage) {
       const CompressedImageMessage image = read_compressed_image(fields);
-      topic.encoding = image.format;
-      topic.frame = image.header.frame;
+      topic.encoding = shown_word(image.format);
+      topic.frame = shown_word(image.header.frame);
       return;
     }
     const ImageMessage image = read_image_message(fields);
-    topic.encoding = image.encoding;
-    topic.frame = image.header.frame;
+    topic.encoding = shown_word(image.encoding);
+    topic.frame = shown_word(image.header.frame);
     topic.width = image.width;
     topic.height = image.height;
   }

@@ -97,7 +97,7 @@ inline void fill_depth(Dataset& dataset, const BagTopic& topic, BagFrames& bag) 
   std::string text =
       "width: " + std::to_string(info.width) + "\nheight: " + std::to_string(info.height) + "\nK: " + list(k);
   if (rectified || info.d.empty()) return text;
-  return text + "distortion_model: " + (info.model.empty() ? "plumb_bob" : info.model) +
+  return text + "distortion_model: " + (info.model.empty() ? "plumb_bob" : "\"" + info.model + "\"") +
          "\nD: " + list(info.d);
 }
 
