@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/shell/progress.hpp"
-#include "sslam/io/datasets/bag.hpp"
+#include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {

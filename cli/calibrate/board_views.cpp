@@ -43,7 +43,7 @@ std::string where_else(const std::vector<cv::Mat>& images, const Board& board) {
 BoardViews find_views(const io::Dataset& dataset, const Board& board, Verbosity verbosity) {
   BoardViews found;
   FrameReader reader(dataset);
-  const bool video = dataset.layout == io::Layout::kVideo;
+  const bool video = dataset.layout == io::Layout::kVideo || dataset.bag;
   const std::size_t stride = video ? dataset.frames.size() / kMostVideoFrames + 1 : 1;
   Progress progress((dataset.frames.size() + stride - 1) / stride, verbosity, "calibrate");
   const Interrupt interrupt;

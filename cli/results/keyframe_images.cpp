@@ -18,15 +18,23 @@ struct NamedFrame {
   std::string image;
 };
 
+// Whether the run's dataset was a bag.
+bool is_of_bag(const RunFolder& run) {
+  const auto settings = run.metrics.find("settings");
+  if (settings == run.metrics.end() || !settings->is_object()) return false;
+  const auto topic = settings->find("topic");
+  return topic != settings->end() && topic->is_string() && !topic->get<std::string>().empty();
+}
+
 // Of what FrameReader::label gives.
-std::string image_name(const std::string& label, std::int64_t index) {
+std::string image_name(const std::string& label, std::int64_t index, bool of_bag) {
   const std::string tail = " frame " + std::to_string(index);
   if (!label.ends_with(tail)) return label;
   const std::string file = label.substr(0, label.size() - tail.size());
-  return io::is_video_name(file) ? video_frame_stem(file, index) + ".png" : label;
+  return of_bag || io::is_video_name(file) ? video_frame_stem(file, index) + ".png" : label;
 }
 
-std::map<std::int64_t, NamedFrame> named_frames(const io::CsvTable& frames) {
+std::map<std::int64_t, NamedFrame> named_frames(const io::CsvTable& frames, bool of_bag) {
   std::map<std::int64_t, NamedFrame> named;
   const std::size_t index = frames.column("index"), stamp = frames.column("stamp"),
                     image = frames.column("image"), none = frames.columns.size();
@@ -34,7 +42,8 @@ std::map<std::int64_t, NamedFrame> named_frames(const io::CsvTable& frames) {
   for (std::size_t row = 0; row < frames.rows(); ++row) {
     const auto number = io::parse_number<std::int64_t>(frames.cell(row, index));
     const auto time = io::parse_number<double>(frames.cell(row, stamp));
-    if (number && time) named[*number] = {*time, image_name(std::string(frames.cell(row, image)), *number)};
+    if (number && time)
+      named[*number] = {*time, image_name(std::string(frames.cell(row, image)), *number, of_bag)};
   }
   return named;
 }
@@ -42,7 +51,7 @@ std::map<std::int64_t, NamedFrame> named_frames(const io::CsvTable& frames) {
 }  // namespace
 
 KeyframeImages keyframe_images(const RunFolder& run) {
-  const auto named = named_frames(run.frames);
+  const auto named = named_frames(run.frames, is_of_bag(run));
   KeyframeImages images;
   std::size_t strangers = 0, blanks = 0;
   for (const auto& keyframe : run.map.keyframes) {

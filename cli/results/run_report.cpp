@@ -18,6 +18,7 @@
 #include "cli/results/truth_source.hpp"
 #include "cli/results/view_file.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/io/datasets/bag.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/files/csv_writer.hpp"
 #include "sslam/io/files/output_file.hpp"

@@ -72,6 +72,8 @@ def ros2(sslam):
     path = sslam.scratch / "recording"
     bags.write_ros2(path, sslam.room.messages(packed=True, depth=None))
     sslam.same_as_folder(path)
+    sslam.run_program("export", sslam.scratch / "recording_out", "--format", "colmap")
+    assert "recording_000000.png" in (sslam.scratch / "recording_out" / "colmap" / "images.txt").read_text()
     assert "has no topics" in sslam.run(sslam.room.folder, "none", "--topic", "/camera/image_raw", code=1)[1]
 
 

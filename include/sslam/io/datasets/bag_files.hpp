@@ -15,6 +15,11 @@
 
 namespace sslam::io {
 
+// Which topics to take; empty: found.
+struct BagTopics {
+  std::string images, depth;
+};
+
 namespace bag_detail {
 
 [[nodiscard]] inline std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder,
@@ -37,7 +42,7 @@ namespace bag_detail {
 [[nodiscard]] inline Dataset unread_bag(const std::filesystem::path& path) {
   Dataset dataset;
   dataset.layout = Layout::kBag;
-  dataset.root = path;
+  dataset.root = path.has_filename() ? path : path.parent_path();  // "folder/" is no name
   return dataset;
 }
 
