@@ -3,6 +3,7 @@
 // first to the last, with or without an index at its end.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>

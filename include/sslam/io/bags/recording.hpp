@@ -98,8 +98,8 @@ class Collector {
 
   void channel(std::uint32_t number, const BagChannel& channel) {
     constexpr std::size_t kMostTopics = 1U << 16U, kLongestName = 1U << 12U;
-    if (channel.topic.size() > kLongestName || channel.type.size() > kLongestName) throw Error("a long name");
-    if (topic_of_.size() >= kMostTopics) throw Error("more than 65536 topics");
+    if (channel.topic.size() > kLongestName || channel.type.size() > kLongestName) return;  // nobody's
+    if (topic_of_.size() > kMostTopics) throw TooMany("has more than 65536 topics");
     const auto [known, added] =
         topics_.try_emplace({channel.topic, channel.type, channel.encoding}, recording_.topics.size());
     topic_of_[number] = known->second;

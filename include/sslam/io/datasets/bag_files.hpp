@@ -3,7 +3,6 @@
 // only to who opens it (bag.hpp), and are filled in then.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
