@@ -155,7 +155,7 @@ def main():
     one.add_argument("--sequences", type=names, default=RECORDINGS + list(ROOMS))
     one.add_argument("--starts", type=numbers, default=[0, 5, 10, 15, 20, 25])
     one.add_argument("--strides", type=numbers, default=[1])
-    one.add_argument("--normals", type=names, default=["none"], help="none, onnx, depth, files (rendered rooms)")
+    one.add_argument("--normals", type=names, default=["none"], help="none, on-demand, onnx, depth, files (rendered rooms)")
     one.add_argument("--preset", default="structure")
     one.add_argument("--set", action="append", default=[])
     one.add_argument("--no-final-pass", action="store_true")

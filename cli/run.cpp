@@ -47,11 +47,15 @@ std::string last_reason_of(const RunOutcome& outcome) {
 // A source of normals that gives nothing, view after view, is wrong as a whole: its manifest, or its scale.
 void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
   constexpr std::size_t kEnough = 10;  // frames, to tell a fault from a view of clutter
-  const bool any = std::any_of(outcome.frames.begin(), outcome.frames.end(), [](const FrameRecord& frame) {
-    return frame.normal_status == NormalStatus::kOk;
-  });
-  if (source == "none" || any || outcome.frames.size() < kEnough) return;
-  outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(outcome.frames.size()) +
+  std::size_t asked = 0;
+  bool any = false;
+  for (const FrameRecord& frame : outcome.frames) {
+    if (frame.normal_need == NormalNeed::kNotNeeded) continue;
+    ++asked;
+    any = any || frame.normal_status == NormalStatus::kOk;
+  }
+  if (any || asked < kEnough) return;
+  outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(asked) +
                              " frames has normals that are of use; sslam normals shows what a network sees");
 }
 

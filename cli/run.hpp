@@ -15,8 +15,10 @@ namespace sslam::cli {
 // What --normals takes.
 inline constexpr const char* kNormalsMeaning =
     "Surface normals: none (lines alone), depth, files:DIR, onnx (the network that comes with sslam) or "
-    "onnx:FILE; default onnx where that network is installed, else none (none also for presets without a "
-    "Manhattan world)";
+    "onnx:FILE, for every frame; on-demand (that network) or on-demand:SOURCE asks only where a frame's "
+    "lines "
+    "leave its rotation open; default on-demand where that network is installed, else none (none also for "
+    "presets without a Manhattan world)";
 
 // What becomes of the calibration.
 enum class CalibrationMode {
@@ -32,7 +34,7 @@ struct RunSettings {
   double focal = 0;      // pixels, for a camera without calibration; 0: not given
   double fov = 0;        // the same as degrees across
   CalibrationMode calibration = CalibrationMode::kRefine;
-  std::string normals;  // empty: the network that comes with sslam where it is installed, else none
+  std::string normals;  // empty: the shipped network on demand where it is installed, else none
   std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all
   std::string preset = "structure";
   std::string map;  // file of an earlier run to go on in; empty: none

@@ -113,7 +113,7 @@ class SuiteReader {
 
   // The file behind "files:" or "onnx:" is relative to the suite as well.
   [[nodiscard]] std::string resolve_normals(const std::string& normals) const {
-    for (const char* prefix : {"files:", "onnx:"})
+    for (const char* prefix : {"files:", "onnx:", "on-demand:files:", "on-demand:onnx:"})
       if (normals.starts_with(prefix)) return prefix + resolve(normals.substr(std::string(prefix).size()));
     return normals;
   }

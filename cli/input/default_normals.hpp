@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which source of normals a run takes when nobody names one: the network that comes with sslam, where it is.
+// Which source of normals a run takes when nobody names one: the network that comes with sslam, on demand,
+// where it is installed.
 #pragma once
 
 #include <filesystem>
@@ -31,7 +32,7 @@ struct DefaultNormals {
 [[nodiscard]] inline DefaultNormals default_normals(const std::optional<std::filesystem::path>& shipped_model,
                                                     bool wanted) {
   if (!wanted) return {"none", ""};
-  if (shipped_model) return {"onnx", ""};
+  if (shipped_model) return {"on-demand", ""};
   return {"none",
           "the normal network that comes with sslam is not installed: the axes come from lines alone"};
 }

@@ -145,19 +145,16 @@ void FrameStream::fill(SourceFrame& frame, ExtractedFrame& out) {
   if (!out.usable()) {
     if (frame.why.empty()) frame.why = entry.image + ": " + name(out.report.image);
     out.warning = frame.why + "; frame skipped";
-    return;
   }
-  if (out.warning.empty()) out.warning = normals_warning(entry, out.report.normals);
 }
 
-// Empty: nothing to tell. A view without planes is no fault of the input: the run's figures count it. What is
-// wrong with a source as a whole is told once, and counted in the figures, too.
-std::string FrameStream::normals_warning(const io::FrameEntry& entry, NormalStatus status) {
-  if (status == NormalStatus::kOk || status == NormalStatus::kNoEvidence) return {};
+std::string FrameStream::fault_of_normals(const ExtractedFrame& frame) {
+  const NormalStatus status = frame.report.normals;
+  if (!frame.warning.empty() || status == NormalStatus::kOk || status == NormalStatus::kNoEvidence) return {};
   const bool whole = status == NormalStatus::kFacesAway || status == NormalStatus::kOutOfRange ||
                      status == NormalStatus::kTooSmall;
   if (whole && !told_.insert(status).second) return {};
-  return entry.image + ": " + name(status) + "; lines alone for this frame" +
+  return frame.entry.image + ": " + name(status) + "; lines alone for this frame" +
          (whole ? ", and for others like it, which metrics.json counts" : "");
 }
 

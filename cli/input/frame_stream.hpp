@@ -48,6 +48,10 @@ class FrameStream {
   // contents of `out` are recycled.
   [[nodiscard]] bool next(ExtractedFrame& out);
 
+  // Of a frame that has been tracked, in one line. Empty: nothing to tell. A view without planes is no fault
+  // of the input: the run's figures count it. What is wrong with a source as a whole is told once.
+  [[nodiscard]] std::string fault_of_normals(const ExtractedFrame& frame);
+
   // No further frame is wanted. Waits for nothing.
   void stop();
 
@@ -58,14 +62,13 @@ class FrameStream {
   [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
   void fill(SourceFrame& frame, ExtractedFrame& out);
   void read(SourceFrame& frame);
-  [[nodiscard]] std::string normals_warning(const io::FrameEntry& entry, NormalStatus status);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out);
 
   io::Dataset& dataset_;
   System& system_;
   FrameStreamOptions options_;
   FrameReader reader_;
-  std::set<NormalStatus> told_;  // faults of the source of normals
+  std::set<NormalStatus> told_;  // faults of the source of normals, for the tracker's thread
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();

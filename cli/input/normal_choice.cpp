@@ -34,14 +34,26 @@ FileNormals open_files(const fs::path& folder) {
 
 }  // namespace
 
+std::string source_of_normals(const std::string& text) {
+  const std::string prefix = std::string(kOnDemand) + ":";
+  if (text == kOnDemand) return "onnx";
+  return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
+}
+
 NormalChoice choose_normals(const std::string& text) {
+  if (const std::string source = source_of_normals(text); source != text) {
+    NormalChoice choice = choose_normals(source);
+    choice.on_demand = true;
+    return choice;
+  }
   constexpr std::string_view kFiles = "files:", kOnnx = "onnx:";
   if (text == "none") return {NoNormals{}};
   if (text == "depth") return {DepthNormals{}};
   if (text == "onnx") return {OnnxNormals(shipped_model("name one with --normals onnx:FILE"))};
   if (text.starts_with(kFiles)) return {open_files(text.substr(kFiles.size()))};
   if (text.starts_with(kOnnx)) return {OnnxNormals(text.substr(kOnnx.size()))};
-  throw UsageError("--normals " + text + ": not known; use none, depth, files:DIR, onnx or onnx:FILE");
+  throw UsageError("--normals " + text +
+                   ": not known; use on-demand, none, depth, files:DIR, onnx, onnx:FILE or on-demand:SOURCE");
 }
 
 }  // namespace sslam::cli

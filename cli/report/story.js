@@ -102,6 +102,11 @@ function tellStory() {
     items.push({ state: "manhattan", row, length: 1, text: `Two maps became one: a place of an earlier map was recognised (${whereOf({ from: row, to: row })}).` });
   if (metrics.maps_apart > 0)
     items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be connected with this one: no place was seen in both. Those frames have no pose in the trajectory.` });
+  const asked = metrics.normals_asked;
+  if (run.settings?.normals?.startsWith("on-demand") && asked) {
+    const why = Object.entries(asked.reasons).map(([reason, count]) => `${reason} (${count})`).join(", ");
+    items.push({ state: "manhattan", text: asked.frames > 0 ? `Surface normals were asked for in ${countOf(asked.frames, "frame")}: ${why}. Lines gave the rotation in the others.` : "Lines gave the rotation in every frame: surface normals were not asked for." });
+  }
   const unseen = metrics.frames_without_normal_evidence;
   if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals showed none of the room's axes: too few planes were in view. Lines alone gave the axes there.` });
   const worst = run.errors ? greatest(run.errors.position_m) : -1;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cli/input/camera_yaml.hpp"
+#include "cli/input/normal_choice.hpp"
 #include "cli/results/eval_report.hpp"
 #include "cli/results/frame_table.hpp"
 #include "cli/results/map_figures.hpp"
@@ -144,6 +145,34 @@ void write_top_view_file(const fs::path& path, const RunContext& context, const 
   io::write_top_view(path, view);
 }
 
+std::size_t count_asked(const RunOutcome& outcome, NormalNeed need) {
+  return static_cast<std::size_t>(
+      std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                    [need](const FrameRecord& frame) { return frame.normal_need == need; }));
+}
+
+// For how many frames the source of normals was asked, and for which of them why.
+Json normals_asked_json(const RunOutcome& outcome) {
+  Json reasons = Json::object();
+  std::size_t asked = 0;
+  for (const NormalNeed need : kNormalNeeds) {
+    const std::size_t count = count_asked(outcome, need);
+    if (count > 0) reasons[name(need)] = count;
+    asked += count;
+  }
+  return {{"frames", asked}, {"reasons", reasons}};
+}
+
+// "normals          asked for in 12 of 200 frames: no Manhattan frame yet 1, an axis is open 11"
+void print_normals_asked(const RunOutcome& outcome) {
+  const Json asked = normals_asked_json(outcome);
+  std::string reasons;
+  for (const auto& [reason, count] : asked["reasons"].items())
+    reasons += (reasons.empty() ? ": " : ", ") + reason + " " + std::to_string(count.get<std::size_t>());
+  std::printf("normals          asked for in %zu of %zu frames%s\n", asked["frames"].get<std::size_t>(),
+              outcome.frames.size(), reasons.c_str());
+}
+
 // How many frames each fault of the source of normals cost; empty without faults.
 Json normal_faults_json(const RunOutcome& outcome) {
   Json faults = Json::object();
@@ -181,6 +210,7 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
     std::printf("dropped          %zu frames that came while the tracker was busy\n", outcome.frames_dropped);
   if (outcome.stream_losses > 0)
     std::printf("stream           broke %zu times and came back\n", outcome.stream_losses);
+  if (context.settings.normals.starts_with(kOnDemand)) print_normals_asked(outcome);
   if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
     std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
                 outcome.frames.size());
@@ -265,6 +295,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
                   {"frames_apart", outcome.apart.frames},
                   {"states", states_json(outcome)},
                   {"structure", count_frames(outcome, &TrackResult<double>::structure)},
+                  {"normals_asked", normals_asked_json(outcome)},
                   {"frames_without_normal_evidence", count_normals(outcome, NormalStatus::kNoEvidence)},
                   {"normal_faults", normal_faults_json(outcome)},
                   {"times", times_json(outcome)}};

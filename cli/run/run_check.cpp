@@ -69,7 +69,7 @@ void check_live(const RunSettings& settings, const Preset& preset) {
 }
 
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor) {
-  if (settings.normals != "depth") return;
+  if (source_of_normals(settings.normals) != "depth") return;
   const bool any = std::any_of(dataset.frames.begin(), dataset.frames.end(),
                                [](const io::FrameEntry& frame) { return !frame.depth.empty(); });
   if (!any) throw Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");

@@ -15,7 +15,9 @@ void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, 
   ExtractedFrame input;
   while (!Interrupt::asked() && stream.next(input)) {
     if (!input.warning.empty()) system.warn(input.warning);
-    if (input.usable()) (void)system.track(input);
+    if (!input.usable()) continue;
+    (void)system.track(input);
+    if (const std::string fault = stream.fault_of_normals(input); !fault.empty()) system.warn(fault);
   }
   stream.stop();  // a camera need not go on while the last frames are worked on
   WallTimer last;

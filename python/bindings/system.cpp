@@ -123,6 +123,9 @@ void bind_result(nb::module_& module) {
       .def_ro("lines", &Result::lines, "line features found in the image")
       .def_ro("normals", &Result::normals, "surface normals found in the image")
       .def_prop_ro(
+          "normals_asked", [](const Result& r) { return std::string(name(r.normal_need)); },
+          "why normals were looked for; empty: they were not")
+      .def_prop_ro(
           "normals_status", [](const Result& r) { return std::string(name(r.normal_status)); },
           "'ok', or why there are no normals")
       .def_ro("axes_seen", &Result::axes_seen, "Manhattan axes with support, 0 to 3")

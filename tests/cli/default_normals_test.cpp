@@ -11,8 +11,8 @@ namespace default_normals_test {
 
 using namespace sslam;
 
-TEST_CASE("The network is the default where it is installed and of use") {
-  CHECK(cli::default_normals("model.json", true).source == "onnx");
+TEST_CASE("The network on demand is the default where it is installed and of use") {
+  CHECK(cli::default_normals("model.json", true).source == "on-demand");
   CHECK(cli::default_normals("model.json", true).note.empty());
   CHECK(cli::default_normals("model.json", false).source == "none");
   CHECK(cli::default_normals("model.json", false).note.empty());

@@ -71,23 +71,40 @@ TEST_CASE("run --live hears Ctrl-C while it waits for an image that is an hour a
     REQUIRE(fs::exists(copy.out / name));
 }
 
-TEST_CASE("run takes the network that comes with sslam unless told otherwise") {
+TEST_CASE(
+    "run asks the network that comes with sslam where lines leave something open, unless told otherwise") {
   const Copy copy;
   Outcome outcome = copy.run_by_default("--end 20");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   const auto metrics = copy.metrics();
-  REQUIRE(metrics["settings"]["normals"] == "onnx");
+  REQUIRE(metrics["settings"]["normals"] == "on-demand");
   REQUIRE(metrics["warnings"].empty());
+  const auto& asked = metrics["normals_asked"];
+  REQUIRE(asked["frames"] >= 1);
+  REQUIRE(asked["frames"] < 20);
+  REQUIRE(asked["reasons"]["no Manhattan frame yet"] >= 1);
+  int reasons = 0;
+  for (const auto& [reason, count] : asked["reasons"].items()) reasons += count.get<int>();
+  REQUIRE(asked["frames"] == reasons);
+  outcome = copy.run("--end 20 --normals on-demand");
+  REQUIRE(outcome.text.find("normals          asked for in " + asked["frames"].dump() +
+                            " of 20 frames: no Manhattan") != std::string::npos);
+  REQUIRE(copy.metrics()["normals_asked"] == asked);
   outcome = copy.run("--end 20 --normals onnx");
   REQUIRE(outcome.code == 0);
   REQUIRE(copy.metrics()["settings"]["normals"] == "onnx");
+  REQUIRE(copy.metrics()["normals_asked"]["reasons"]["every frame"] == 20);
   outcome = copy.run_by_default("--end 20 --preset features");  // makes no use of normals
   REQUIRE(outcome.code == 0);
   REQUIRE(copy.metrics()["settings"]["normals"] == "none");
   outcome = copy.run("--end 20 --normals none");
   REQUIRE(outcome.code == 0);
   REQUIRE(copy.metrics()["settings"]["normals"] == "none");
+  REQUIRE(copy.metrics()["normals_asked"]["frames"] == 0);
+  outcome = copy.run("--end 20 --normals on-demand:files:" + (copy.folder / "normals").string());
+  REQUIRE(outcome.code == 0);
+  REQUIRE(copy.metrics()["normals_asked"]["frames"] < 20);
 }
 
 TEST_CASE("run goes on with lines and features where a network fails") {
@@ -427,7 +444,7 @@ TEST_CASE("demo renders, tracks and says where to look") {
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("report.html") != std::string::npos);
   REQUIRE(fs::exists(scratch.path() / "demo/run/map.ply"));
-  REQUIRE(text_of(scratch.path() / "demo/run/metrics.json").find("\"normals\": \"onnx\"") !=
+  REQUIRE(text_of(scratch.path() / "demo/run/metrics.json").find("\"normals\": \"on-demand\"") !=
           std::string::npos);
 }
 

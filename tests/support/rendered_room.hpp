@@ -19,6 +19,7 @@ struct RenderedRoom {
   Camera<double> camera;
   double rate = 15;             // images a second
   std::vector<cv::Mat> images;  // BGR
+  std::vector<cv::Mat> depth;   // float, metres; 0 where nothing is seen
   io::Trajectory truth;
 };
 
@@ -46,6 +47,10 @@ inline RenderedRoom render_room(const synth::HouseOptions& options, int frames) 
       bgr.data[k + 2] = rgb[k];
     }
     room.images.push_back(std::move(bgr));
+    cv::Mat depth(frame.height, frame.width, CV_32F);
+    for (std::size_t k = 0; k < frame.inverse_depth.size(); ++k)
+      depth.ptr<float>()[k] = frame.inverse_depth[k] > 0 ? 1 / frame.inverse_depth[k] : 0;
+    room.depth.push_back(std::move(depth));
     room.truth.push_back({stamp, world_from_cam});
   }
   return room;

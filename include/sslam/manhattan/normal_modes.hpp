@@ -90,10 +90,11 @@ void describe_modes(const FrameMoments<S>& moments, S total, const ManhattanOpti
     const S gain = kernel_gain(axis.variance, found.width);
     mode.share = std::min(S(1), axis.mass * gain / total);
     mode.scatter = std::sqrt(axis.variance * gain);
-    mode.seen = is_peak(axis, found.width, total) && mode.share >= options.min_normal_share;
     const S votes = std::max(S(1), mode.share * total);
     mode.sigma = std::sqrt(mode.scatter * mode.scatter * (S(1) / votes + options.normal_correlation) +
                            options.normal_floor * options.normal_floor);
+    mode.seen = is_peak(axis, found.width, total) && mode.share >= options.min_normal_share &&
+                mode.sigma < options.max_deviation;
     const Vec2<S> shift = std::min(gain, S(3)) * axis.mean;
     mode.direction =
         (axes.col(k) + shift.x() * axes.col((k + 1) % 3) + shift.y() * axes.col((k + 2) % 3)).normalized();

@@ -44,7 +44,21 @@ template <Scalar S, Scalar V>
   NormalModes<S> modes;
   modes.cam_from_axes = start;
   if (votes.total > S(0)) modes = find_normal_modes(votes.normals, votes.total, start, options);
-  return FrameRefiner<S>(modes, votes.lines, prior, prior_information, options).run(shares);
+  const auto refine = [&](LineShares<S>& found) {
+    return FrameRefiner<S>(modes, votes.lines, prior, prior_information, options).run(found);
+  };
+  ManhattanEstimate<S> estimate = refine(shares);
+  if (votes.lines.empty() || !(angle_between(modes.cam_from_axes, start) > options.widest_line_gate))
+    return estimate;
+  // The normals have led farther away than segments reach: they are off where segments agree at the start.
+  modes.cam_from_axes = start;
+  LineShares<S> shares_at_start;
+  const ManhattanEstimate<S> at_start = refine(shares_at_start);
+  if (at_start.log_likelihood > estimate.log_likelihood + options.min_line_gain) {
+    estimate = at_start;
+    shares = shares_at_start;
+  }
+  return estimate;
 }
 
 template <Scalar S>

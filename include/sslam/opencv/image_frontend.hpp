@@ -60,7 +60,8 @@ class ImageFrontend {
   OrbExtractor points;
   LineExtractor lines;
   Normals normals;
-  bool parallel = true;  // false: one stage after the other, with the same result
+  bool normals_later = false;  // process() leaves the frame without normals: ask() finds them
+  bool parallel = true;        // false: one stage after the other, with the same result
 
   // Replaces the contents of `frame`, whose buffers are reused.
   [[nodiscard]] FrontendReport process(const ImageInput& input, Frame<double>& frame) {
@@ -81,7 +82,8 @@ class ImageFrontend {
       const Clock clock;
       extract_points(frame);
       report.points_time = clock.seconds();
-      report.normals = fill_normals(input, frame.normals);
+      if (normals_later) return frame.normals.clear();
+      report.normals = fill_normals(input, mask_, frame.normals);
       report.normals_time = clock.seconds() - report.points_time;
     };
     const auto only_lines = [&] {
@@ -98,6 +100,16 @@ class ImageFrontend {
     }
     report.total_time = start.seconds();
     return report;
+  }
+
+  // Fills in the normals of an image that process() has taken; another thread may process the next one
+  // meanwhile. Where the mask leaves nothing to see there are no normals.
+  void ask(const ImageInput& input, NormalField& field, FrontendReport& report) {
+    const Clock clock;
+    (void)asked_mask_.set(input.depth.empty() ? cv::Mat() : input.mask, input.image.size());
+    report.normals = fill_normals(input, asked_mask_, field);
+    report.normals_time = clock.seconds();
+    report.total_time += report.normals_time;
   }
 
  private:
@@ -176,12 +188,12 @@ class ImageFrontend {
   }
 
   // Depth of what is left out gives no normals. Networks look at the whole image.
-  [[nodiscard]] NormalStatus fill_normals(const ImageInput& input, NormalField& field) {
-    if (!mask_.active() || input.depth.size() != input.image.size())
-      return normals.fill(input, camera, field);
+  [[nodiscard]] NormalStatus fill_normals(const ImageInput& input, const ImageMask& mask,
+                                          NormalField& field) {
+    if (!mask.active() || input.depth.size() != input.image.size()) return normals.fill(input, camera, field);
     ImageInput seen = input;
     seen.depth = input.depth.clone();
-    mask_.erase_depth(seen.depth);
+    mask.erase_depth(seen.depth);
     return normals.fill(seen, camera, field);
   }
 
@@ -195,7 +207,7 @@ class ImageFrontend {
   }
 
   Undistorter undistorter_;
-  ImageMask mask_;
+  ImageMask mask_, asked_mask_;  // of process() and of ask()
   cv::Mat grey_;
   std::unique_ptr<SideThread> side_;  // where the points are found
 };

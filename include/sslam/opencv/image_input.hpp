@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
+#include <utility>
 
 namespace sslam {
 
@@ -17,5 +18,14 @@ struct ImageInput {
   cv::Mat depth;               // registered to the image; 16 bit or float; 0: no measurement; empty: none
   double depth_factor = 5000;  // value of one metre in a 16 bit depth image; float depth is in metres
 };
+
+// The same in pixels of its own, into buffers that serve again.
+inline void keep_copy(const ImageInput& from, ImageInput& to) {
+  cv::Mat image = std::move(to.image), mask = std::move(to.mask), depth = std::move(to.depth);
+  from.image.copyTo(image);
+  from.mask.copyTo(mask);
+  from.depth.copyTo(depth);
+  to = {from.index, from.stamp, from.name, image, mask, depth, from.depth_factor};
+}
 
 }  // namespace sslam

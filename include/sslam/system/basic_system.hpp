@@ -48,6 +48,8 @@ BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(sett
   camera_ = shrunk_camera(settings_.camera, settings_.longest_side);
   frontend_->camera = camera_;
   frontend_->normals = std::move(settings_.normals);
+  normals_on_demand_ = frontend_->normals.any() && frontend_->normals.on_demand;
+  frontend_->normals_later = normals_on_demand_;
   set_parameters();
 }
 
@@ -76,17 +78,39 @@ void BasicSystem<Frontend>::extract(const ImageInput& given, Extraction& out) {
   out.report = frontend_->process(input, out.frame);
   out.picture = out.normal_picture = cv::Mat();
   if (!out.usable()) return;
-  if (settings_.keep_pictures) {
-    out.picture = input.image;
-    const bool seen =
-        out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
-    if (seen) {
-      out.normal_picture = frontend_->normals.small_picture();
-      out.normal_pinhole = frontend_->normals.small_pinhole(camera_);
-    }
+  if (settings_.keep_pictures) out.picture = input.image;
+  if (normals_on_demand_) {
+    keep_copy(input, out.asked_of);
+  } else {
+    keep_normal_picture(out);
   }
   if (!preset_.use_points) out.frame.points.clear();
   if (!preset_.use_lines) out.frame.lines.clear();
+}
+
+template <class Frontend>
+void BasicSystem<Frontend>::keep_normal_picture(Extraction& out) const {
+  const bool seen =
+      out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
+  if (!settings_.keep_pictures || !seen) return;
+  out.normal_picture = frontend_->normals.small_picture();
+  out.normal_pinhole = frontend_->normals.small_pinhole(camera_);
+}
+
+// Normals that the frame has already, of the caller's own say, stay.
+template <class Frontend>
+void BasicSystem<Frontend>::ask_for_normals(Extraction& extraction, FrameReport& report) {
+  Frame<double>& frame = extraction.frame;
+  const bool given = frame.normals.size() > 0;
+  if (given || !normals_on_demand_) {
+    if (given || frontend_->normals.any()) report.normal_need = NormalNeed::kEveryFrame;
+    return;
+  }
+  if (!preset_.use_normals) return;
+  report.normal_need = engine_->normal_need(frame);
+  if (report.normal_need == NormalNeed::kNotNeeded) return;
+  frontend_->ask(extraction.asked_of, frame.normals, extraction.report);
+  keep_normal_picture(extraction);
 }
 
 template <class Frontend>
@@ -129,6 +153,7 @@ FrameReport BasicSystem<Frontend>::track(Extraction& extraction) {
   if (report.input != InputStatus::kOk) return report;
   last_stamp_ = stamp;
   ++frames_;
+  ask_for_normals(extraction, report);
   report.points = static_cast<int>(extraction.frame.points.size());
   report.lines = static_cast<int>(extraction.frame.lines.size());
   report.normals = static_cast<int>(extraction.frame.normals.size());

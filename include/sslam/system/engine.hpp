@@ -8,6 +8,7 @@
 
 #include "sslam/core/parameter_table.hpp"
 #include "sslam/map/map.hpp"
+#include "sslam/track/contract/normal_need.hpp"
 #include "sslam/track/contract/result.hpp"
 #include "sslam/track/contract/stage_timer.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
@@ -24,6 +25,8 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
+  // Of a frame without normals, before it is tracked.
+  [[nodiscard]] virtual NormalNeed normal_need(const Frame<double>& frame) = 0;
   virtual TrackResult<double> track(Frame<double>& frame) = 0;  // swaps the frame's buffers for others
   virtual bool finish() = 0;                                    // true if that closed a loop
   virtual void resume(Map<double> map) = 0;

@@ -13,7 +13,8 @@ namespace sslam {
 struct Extraction {
   Frame<double> frame;
   FrontendReport report;
-  std::string label;  // what the caller calls the image, for observers
+  ImageInput asked_of;  // what normals on demand are found in: a copy; no image where they are not on demand
+  std::string label;    // what the caller calls the image, for observers
   // The image and its normals in small, where Settings::keep_pictures asks for them; empty otherwise.
   cv::Mat picture, normal_picture;
   Pinhole<double> normal_pinhole;  // of the normals' pixels, lens distortion taken out

@@ -16,11 +16,16 @@ namespace sslam {
 
 struct NormalChoice {
   std::variant<NoNormals, DepthNormals, FileNormals, OnnxNormals> source;
+  // True: the source is asked where a frame's lines leave its rotation open
+  // (track/localise/normal_demand.hpp), and when the frame is tracked. False: for every frame, while its
+  // features are looked for.
+  bool on_demand = false;
 
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
     return std::visit([&](auto& chosen) { return chosen.fill(input, camera, field); }, source);
   }
 
+  [[nodiscard]] bool any() const noexcept { return !std::holds_alternative<NoNormals>(source); }
   [[nodiscard]] bool from_depth() const noexcept { return std::holds_alternative<DepthNormals>(source); }
 
   // Of the chosen source, which comes before their names: "depth.max_depth".

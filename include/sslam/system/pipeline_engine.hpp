@@ -14,6 +14,9 @@ namespace sslam {
 template <class Pipeline>
 class PipelineEngine final : public Engine {
  public:
+  [[nodiscard]] NormalNeed normal_need(const Frame<double>& frame) override {
+    return pipeline_.normal_need(frame);
+  }
   TrackResult<double> track(Frame<double>& frame) override { return pipeline_.track(frame); }
   bool finish() override { return pipeline_.finish(); }
   void resume(Map<double> map) override { pipeline_.resume(std::move(map)); }

@@ -100,6 +100,8 @@ class BasicSystem {
   void check(const Settings& settings) const;
   void set_parameters();
   void tell(const FrameReport& report, const Extraction& extraction);
+  void ask_for_normals(Extraction& extraction, FrameReport& report);
+  void keep_normal_picture(Extraction& extraction) const;
   void note_latest(const FrameReport& report);
   void warn_of_image_fixed(const FrameReport& report);
 
@@ -115,6 +117,7 @@ class BasicSystem {
   std::optional<double> last_stamp_;
   int last_world_ = 0;
   bool reads_depth_ = false;
+  bool normals_on_demand_ = false;
   bool finished_ = false;
   bool told_of_image_fixed_ = false;
   mutable std::mutex latest_mutex_;

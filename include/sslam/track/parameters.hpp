@@ -23,6 +23,7 @@ void visit_parameters(Pipeline& p, Visit&& visit) {
   visit_stage("rotation.", p.rotation, visit);
   if constexpr (requires { p.rotation.sightings; }) visit_stage("rotation.", p.rotation.sightings, visit);
   visit_stage("evidence.", p.evidence, visit);
+  visit_stage("demand.", p.demand, visit);
   visit_stage("stance.", p.stance, visit);
   visit_stage("initialisation.", p.initialisation, visit);
   visit_stage("translation.", p.translation, visit);

@@ -20,7 +20,8 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   using ScalarType = S;
   using Stages = StageTypes;
   using Worlds::atlas, Worlds::backfill, Worlds::final_pass, Worlds::trial;
-  using Worlds::evidence, Worlds::motion, Worlds::relocalisation, Worlds::timer;
+  using Worlds::demand, Worlds::evidence, Worlds::trust, Worlds::motion, Worlds::relocalisation,
+      Worlds::timer;
   using Worlds::fallback, Worlds::refinement, Worlds::rotation, Worlds::stance;
   using Worlds::initialisation, Worlds::keyframes, Worlds::loops, Worlds::mapping, Worlds::upkeep;
   using Worlds::translation;
@@ -28,6 +29,15 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   ImageFixedFeatures<S> image_fixed;
   bool localise_only = false;  // no keyframe is made, and no map begun, given up, left or joined
   bool keep_frames = false;    // frames are kept for a final pass, when finish() is called
+
+  // Why the normals of a frame that has none yet could change its pose. Asked before the frame is tracked,
+  // and changes nothing: without normals it is tracked by its lines. A frame that is lost is looked for by
+  // its features.
+  [[nodiscard]] NormalNeed normal_need(const Frame<S>& frame) {
+    if (world_.map.empty()) return Worlds::need(frame, frames_.current().cam_from_world.rotation, world_.map);
+    if (trial.lost() && !motion.reaches(frame.stamp)) return NormalNeed::kNotNeeded;
+    return Worlds::need(frame, motion.predict(frame.stamp).rotation, world_.map);
+  }
 
   // Takes the frame's buffers over and leaves it those of an earlier frame to fill again.
   TrackResult<S> track(Frame<S>& frame) {

@@ -9,6 +9,8 @@
 #include "sslam/track/localise/frame_history.hpp"
 #include "sslam/track/localise/manhattan_stance.hpp"
 #include "sslam/track/localise/motion_model.hpp"
+#include "sslam/track/localise/normal_demand.hpp"
+#include "sslam/track/localise/normal_trust.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/localise/rotation_evidence.hpp"
 #include "sslam/track/worlds/world.hpp"
@@ -22,6 +24,8 @@ class PoseTracking {
  public:
   typename Stages::Rotation rotation;
   RotationEvidence<S> evidence;
+  NormalDemand<S> demand;
+  NormalTrust<S> trust;
   ManhattanStance<S> stance;
   typename Stages::Translation translation;
   typename Stages::Fallback fallback;
@@ -34,6 +38,13 @@ class PoseTracking {
   RotationAnswer<S> rotate(const SO3<S>& predicted, Map<S>& map, TrackedFrame<S>& frame,
                            TrackResult<S>& result) {
     return rotate_by(rotation, predicted, map, frame, result);
+  }
+
+  // What the normals of a frame could do for its rotation, of which its lines alone say what they can.
+  [[nodiscard]] NormalNeed need(const Frame<S>& frame, const SO3<S>& predicted, const Map<S>& map) {
+    if (map.world_from_manhattan.empty()) return NormalNeed::kNoManhattanFrame;
+    trial_rotation_ = rotation;
+    return demand.need(trial_rotation_.rotate(frame, predicted, {map.world_from_manhattan, !map.empty()}));
   }
 
   // The current frame, from those before it.
@@ -60,6 +71,8 @@ class PoseTracking {
                                        : Reason::kManhattanRejected;
     if (estimate.ok() && prior) {
       evidence.learn(result.index, frame.manhattan_frame, answer.seen->rotation, solved);
+      if (frame.manhattan_frame < world.map.world_from_manhattan.size())
+        trust.learn(answer.normal_axes, solved * world.map.world_from_manhattan[frame.manhattan_frame]);
       stance.refine(world.map, frame);
     }
     return estimate;
@@ -86,6 +99,8 @@ class PoseTracking {
  private:
   RotationAnswer<S> rotate_by(typename Stages::Rotation& stage, const SO3<S>& predicted, Map<S>& map,
                               TrackedFrame<S>& frame, TrackResult<S>& result) {
+    NormalField& normals = frame.frame.normals;
+    normals.plane_sigma = static_cast<float>(trust.plane_sigma(static_cast<S>(normals.plane_sigma)));
     const RotationAnswer<S> answer =
         stage.rotate(frame.frame, predicted, {map.world_from_manhattan, !map.empty()});
     if (answer.discovered) map.world_from_manhattan.push_back(*answer.discovered);
@@ -125,6 +140,7 @@ class PoseTracking {
   }
 
   RecentLandmarks<S> recent_;
+  typename Stages::Rotation trial_rotation_;  // a copy, whose answers leave no trace
 };
 
 }  // namespace sslam

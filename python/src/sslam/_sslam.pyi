@@ -208,6 +208,10 @@ class Result:
         """surface normals found in the image"""
 
     @property
+    def normals_asked(self) -> str:
+        """why normals were looked for; empty: they were not"""
+
+    @property
     def normals_status(self) -> str:
         """'ok', or why there are no normals"""
 

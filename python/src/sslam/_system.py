@@ -64,8 +64,9 @@ class System:
     preset: one of sslam.presets().
     normals: where surface normals come from: "onnx" (the network that comes with sslam), "onnx:FILE" (another one),
         "depth" (registered depth images), "files:DIR", "none" (lines alone), or a function that is called with each
-        image as track() gets it and answers with normals as track(normals=...) takes them, or with None. By default
-        the shipped network where it is installed and the preset has a use for it.
+        image as track() gets it and answers with normals as track(normals=...) takes them, or with None. "on-demand:"
+        before a source asks it where the lines of a frame leave its rotation open; "on-demand" alone, the default,
+        is that of the shipped network, where it is installed and the preset has a use for it.
     parameters: values that differ from their defaults, by the names of sslam.parameters(), in their units; or
         as keywords with two underscores for each dot: keyframes__max_turn=10.
     colours: order of the channels of images with three or four: "bgr" (as OpenCV reads them, no copy), or "rgb".
@@ -127,12 +128,12 @@ class System:
             return "none"
         if normals is not None and not isinstance(normals, str):
             raise TypeError(f"normals: expected a str, a function or None, not {type(normals).__name__}")
-        if normals not in (None, "onnx"):
+        if normals not in (None, "onnx", "on-demand"):
             return str(normals)
         wanted = normals is not None or any(p.uses_normals for p in presets() if p.name == preset)
         shipped = shipped_network()
         if wanted and shipped is not None:
-            return "onnx:" + shipped
+            return ("onnx:" if normals == "onnx" else "on-demand:onnx:") + shipped
         if normals is not None:
             raise SettingsError("normals: the network that comes with sslam is not installed; name one with onnx:FILE")
         if wanted:

@@ -2,6 +2,7 @@
 // What the rotation stage is told of the world, and what it answers for one frame.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,10 @@ struct KnownAxes {
   bool world_fixed = false;  // false: there is no map yet, and the first Manhattan frame becomes its world
 };
 
+// Unit directions in the camera frame, one for each axis of a Manhattan frame; empty where none was seen.
+template <Scalar S>
+using NormalAxes = std::array<std::optional<Vec3<S>>, 3>;
+
 template <Scalar S>
 struct RotationAnswer {
   struct Seen {
@@ -34,6 +39,7 @@ struct RotationAnswer {
   std::span<const std::int8_t> line_axes = {};
   // How a new Manhattan frame stands in the world, which is to join those that are known, as their last.
   std::optional<SO3<S>> discovered = {};
+  NormalAxes<S> normal_axes = {};  // where the frame's normals, by themselves, see the axes of that frame
 
   [[nodiscard]] bool trusted() const noexcept { return seen && seen->certain; }
 };

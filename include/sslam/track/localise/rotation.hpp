@@ -119,7 +119,20 @@ class ManhattanRotation {
         estimate_.covariance + options.squareness * options.squareness * Mat3<S>::Identity();
     const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(rotation.covariance, Eigen::EigenvaluesOnly);
     const bool certain = std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
-    return {{{rotation, certain, index}}, estimate_.axes_seen, line_axes_, discovered_};
+    return {{{rotation, certain, index}}, estimate_.axes_seen, line_axes_, discovered_, normal_axes()};
+  }
+
+  [[nodiscard]] NormalAxes<S> normal_axes() const {
+    NormalAxes<S> seen;
+    for (int k = 0; k < 3; ++k) {
+      const AxisSupport<S>& axis = estimate_.axes[static_cast<std::size_t>(k)];
+      if (!axis.by_normals) continue;
+      Vec3<S> direction = Vec3<S>::Unit(k);
+      direction[(k + 1) % 3] = axis.mode[0];
+      direction[(k + 2) % 3] = axis.mode[1];
+      seen[static_cast<std::size_t>(k)] = (estimate_.cam_from_manhattan * direction).normalized();
+    }
+    return seen;
   }
 
   [[nodiscard]] bool degenerate() const noexcept { return estimate_.status == Status::kDegenerate; }

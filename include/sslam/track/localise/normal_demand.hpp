@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When normals are worth their price: where the frame's lines leave its rotation open. Decided by what was
+// measured, never by time, so that the same images are asked about in every run.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "sslam/core/parameter.hpp"
+#include "sslam/track/contract/normal_need.hpp"
+#include "sslam/track/contract/rotation_answer.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct NormalDemandOptions {
+  // By lines alone, about any axis; half of RotationOptions::max_sigma. Normals of a network are good to 5
+  // degrees: what lines know better than this they change by less than 3 %.
+  S max_sigma = radians(S(0.75));
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
+          "standard deviation of a rotation by lines alone, above which normals are asked for");
+  }
+};
+static_assert(Described<NormalDemandOptions<double>>);
+
+template <Scalar S>
+class NormalDemand {
+ public:
+  NormalDemandOptions<S> options;
+
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+  }
+
+  // By what the rotation stage says of the frame's lines, in a world that has a Manhattan frame.
+  [[nodiscard]] NormalNeed need(const RotationAnswer<S>& by_lines) const {
+    if (!by_lines.seen) return NormalNeed::kNoAxis;
+    if (by_lines.axes_seen < 2) return NormalNeed::kAxisOpen;
+    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(by_lines.seen->rotation.covariance,
+                                                       Eigen::EigenvaluesOnly);
+    const bool sure = std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
+    return sure ? NormalNeed::kNotNeeded : NormalNeed::kUncertain;
+  }
+};
+
+}  // namespace sslam
