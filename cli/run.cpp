@@ -85,7 +85,8 @@ Settings system_settings(const RunSettings& settings, const CameraChoice& camera
 // What it has to say is a warning of the run.
 void add_dense(RunPass& pass) {
   RunOutcome& outcome = pass.recorder.outcome;
-  outcome.dense = make_dense(outcome.map, pass.recorder.pictures, pass.system.camera());
+  outcome.dense = std::make_shared<const DenseResult>(
+      make_dense(outcome.map, pass.recorder.pictures, pass.system.camera()));
   outcome.warnings.insert(outcome.warnings.end(), outcome.dense->warnings.begin(),
                           outcome.dense->warnings.end());
 }

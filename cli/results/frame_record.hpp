@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/dense/dense_result.hpp"
 #include "cli/results/calibration_record.hpp"
 #include "cli/results/map_colours.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
@@ -16,6 +16,8 @@
 #include "sslam/system/frame_report.hpp"
 
 namespace sslam::cli {
+
+struct DenseResult;
 
 struct FrameRecord : FrameReport {
   std::string image;  // file name, for people
@@ -38,7 +40,7 @@ struct RunOutcome {
   std::size_t frames_dropped = 0;  // of a stream: they came while the tracker was busy
   std::size_t stream_losses = 0;   // times that the stream broke and came back
   bool interrupted = false;
-  std::optional<DenseResult> dense;              // where it was asked for
+  std::shared_ptr<const DenseResult> dense;      // null where it was not asked for
   std::optional<CalibrationRecord> calibration;  // nothing where it was not to be looked at
 };
 

@@ -8,6 +8,7 @@
 #include <opencv2/core/version.hpp>
 #include <optional>
 
+#include "cli/dense/dense_result.hpp"
 #include "cli/input/camera_yaml.hpp"
 #include "cli/input/normal_choice.hpp"
 #include "cli/results/eval_report.hpp"

@@ -19,7 +19,7 @@
 namespace sslam::testing {
 
 struct FilmedRoomOptions {
-  bool clutter = false;         // points anywhere in the room's air instead of on its walls
+  bool clutter = false;         // points anywhere in the room's air, and images of noise
   double points_per_metre = 8;  // square metre
   double place_noise = 0.006;   // of each coordinate of a landmark, metres, uniform to either side
 };
@@ -85,7 +85,7 @@ class FilmedRoom {
     const Vec3<double> right(std::sin(yaw), -std::cos(yaw), 0);
     Mat3<double> axes;
     axes << right, forward.cross(right), forward;
-    return {SO3<double>::from_matrix(axes), Vec3<double>(0.6 * std::sin(yaw), -0.6 * std::cos(yaw), 1.3)};
+    return {SO3<double>::from_matrix(axes), Vec3<double>(std::sin(yaw), -std::cos(yaw), 1.3)};
   }
 
   void film() {
@@ -96,6 +96,9 @@ class FilmedRoom {
       std::vector<std::uint8_t> grey;
       for (std::size_t i = 0; i < frames.back().rgb.size(); i += 3)
         grey.push_back(static_cast<std::uint8_t>(std::clamp(255 * frames.back().rgb[i], 0.0F, 255.0F)));
+      Random noise(static_cast<std::uint64_t>(v) + 100);
+      if (options_.clutter)
+        for (std::uint8_t& value : grey) value = static_cast<std::uint8_t>(noise.below(256));
       greys.push_back(std::move(grey));
     }
   }
@@ -146,6 +149,7 @@ class FilmedRoom {
       std::vector<LandmarkId> seen;
       for (std::size_t i = 0; i < true_places.size(); ++i) {
         PointFeature<double> feature;
+        feature.sigma = 0.3;
         if (!sees(v, true_places[i], feature.pixel)) continue;
         keyframe.frame.points.push_back(feature);
         seen.push_back(static_cast<LandmarkId>(i));

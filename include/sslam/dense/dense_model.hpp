@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "sslam/dense/cell_outline.hpp"
+#include "sslam/dense/creases.hpp"
 #include "sslam/dense/plane_candidates.hpp"
-#include "sslam/dense/plane_cells.hpp"
 #include "sslam/dense/triangulate.hpp"
 #include "sslam/dense/view_costs.hpp"
 
@@ -21,17 +20,9 @@ struct DenseOptions {
   CostOptions cost;
   SmoothOptions smooth;
   CellOptions cells;
+  CreaseOptions creases;
   double cell = 0.008;   // side of a cell, over the median scene depth
   double outline = 1.0;  // by how much polygons may leave the cells' outline, in cells
-};
-
-struct DensePlane {
-  PlaneFit fit;
-  std::int8_t axis = kNone;  // number of the Manhattan axis that it is normal to, or kNone
-  std::size_t label = 0;     // in DenseModel::labels
-  int seen_from = 1;  // the side that most views of it stand on: 1 is where the normal points to, else -1
-  PlaneCells cells;
-  std::vector<Polygon> polygons;  // in the cells' two coordinates
 };
 
 struct DenseModel {
@@ -69,13 +60,12 @@ class DenseBuilder {
       plane.axis = candidates[p].axis;
       plane.label = p;
       plane.cells = voter.vote(p, options_.cell * median_depth);
-      const double square = median_depth * median_depth;
-      clean_cells(plane.cells, options_.cells.min_area * square, options_.cells.max_hole * square);
+      clean(plane.cells, median_depth);
       if (plane.cells.count() == 0) continue;
-      outline(plane);
       plane.seen_from = side(views, model.labels, plane);
       model.planes.push_back(std::move(plane));
     }
+    bring_to_creases(median_depth, model.planes);
     std::stable_sort(model.planes.begin(), model.planes.end(), [](const DensePlane& a, const DensePlane& b) {
       return a.cells.area() > b.cells.area();
     });
@@ -107,12 +97,29 @@ class DenseBuilder {
     return sum < 0 ? -1 : 1;
   }
 
-  void outline(DensePlane& plane) const {
+  void clean(PlaneCells& cells, double median_depth) const {
+    const double square = median_depth * median_depth;
+    clean_cells(cells, options_.cells.min_area * square, options_.cells.max_hole * square);
+  }
+
+  // All planes as they are at first decide what is cut off.
+  void bring_to_creases(double median_depth, std::vector<DensePlane>& planes) const {
+    const std::vector<DensePlane> before = planes;
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+      cut_behind(creases_of(before, p), options_.creases, planes[p].cells);
+      clean(planes[p].cells, median_depth);
+    }
+    std::erase_if(planes, [](const DensePlane& plane) { return plane.cells.count() == 0; });
+    for (std::size_t p = 0; p < planes.size(); ++p) outline(creases_of(planes, p), planes[p]);
+  }
+
+  void outline(const std::vector<Crease>& creases, DensePlane& plane) const {
     const PlaneCells& cells = plane.cells;
     std::vector<Ring> rings =
         trace_cells(cells.columns, cells.rows, [&](int c, int r) { return cells.is_solid(c, r); });
     for (Ring& ring : rings) {
       for (Vec2<double>& corner : ring) corner = cells.origin + cells.cell * corner;
+      snap(creases, options_.creases, cells, ring);
       ring = simplify(ring, options_.outline * cells.cell);
     }
     plane.polygons = nest(rings);

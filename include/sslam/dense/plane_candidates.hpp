@@ -22,6 +22,7 @@ namespace sslam::dense {
 struct CandidateOptions {
   double tolerance = 0.008;           // of a sample from its plane, either way
   std::size_t min_samples = 8;        // of a plane across an axis
+  double min_contrast = 2.5;          // of its samples over what their surroundings make expect
   std::size_t min_free_samples = 24;  // of a plane in any direction
   double min_spread = 0.05;         // standard deviation of the samples in the plane, where they spread least
   double axis_tilt = radians(0.3);  // standard deviation of a wall against its axis
@@ -80,9 +81,10 @@ class CandidateFinder {
       for (const Entry& e : entries) offsets.push_back(e.offset);
       const OffsetMode<double> mode = offset_mode<double>(offsets, 2 * tolerance());
       if (mode.size() < options_.min_samples) return;
+      const bool stands_out = mode.contrast >= options_.min_contrast;
       std::vector<std::size_t> members;
       for (std::size_t i = mode.first; i < mode.last; ++i) members.push_back(entries[i].sample);
-      add({normal, offsets[(mode.first + mode.last) / 2]}, axis, members, options_.axis_tilt);
+      if (stands_out) add({normal, offsets[(mode.first + mode.last) / 2]}, axis, members, options_.axis_tilt);
       entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(mode.first),
                     entries.begin() + static_cast<std::ptrdiff_t>(mode.last));
     }

@@ -88,7 +88,7 @@ class ViewCosts {
     for (std::size_t k = 0; k < homographies.size() && count < costs.size(); ++k)
       if (patch_cost(patch, views_[view.near[k]].grey, homographies[k], at, options_.noise, costs[count]))
         ++count;
-    if (count == 0) return static_cast<float>(0.5 * options_.none * options_.photo_weight);
+    if (count == 0) return static_cast<float>(0.8 * options_.none * options_.photo_weight);
     std::sort(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(count));
     const std::size_t half = (count + 1) / 2;
     float sum = 0;
@@ -113,6 +113,7 @@ class ViewCosts {
 
   // A landmark speaks for the planes at its depth, in the block where it is seen.
   void add_marks(const DenseView& view, CostGrid& grid) const {
+    constexpr double kOffPlanes = 0.15;  // cost of a landmark that is on none of the planes
     std::vector<std::vector<const DepthMark*>> marks(static_cast<std::size_t>(grid.columns * grid.rows));
     for (const DepthMark& mark : view.marks) {
       const int c = static_cast<int>(std::floor((mark.pixel.x() + 0.5) / options_.block)),
@@ -127,7 +128,8 @@ class ViewCosts {
         if (cost == kNoCost) continue;
         double sum = 0;
         for (const DepthMark* const mark : marks[b])
-          sum += l + 1 == grid.labels() ? 0.4 : mark_cost(*mark, grid.inverse_depth[b * grid.labels() + l]);
+          sum += l + 1 == grid.labels() ? kOffPlanes
+                                        : mark_cost(*mark, grid.inverse_depth[b * grid.labels() + l]);
         cost += static_cast<float>(options_.mark_weight * sum / static_cast<double>(marks[b].size()));
       }
     }
