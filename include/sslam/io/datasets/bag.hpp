@@ -77,6 +77,7 @@ inline void fill_depth(Dataset& dataset, const BagTopic& topic, BagFrames& bag) 
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<double> depth_stamps;
+  depth_stamps.reserve(sorted.size());
   for (const auto& [stamp, place] : sorted) depth_stamps.push_back(stamp);
   bag.depth = {topic.kind, topic.wire, topic.name, std::vector<MessagePlace>(dataset.frames.size())};
   for (const StampPair& pair : associate(frame_stamps(dataset), depth_stamps, kMaxStampDifference)) {
