@@ -12,12 +12,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/results/eval_report.hpp"
+#include "cli/results/image_names.hpp"
 #include "cli/results/truth_source.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/evaluation/same_clock.hpp"
+#include "sslam/io/evaluation/time_offset.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 
 namespace sslam::cli {
@@ -31,8 +33,9 @@ const std::map<std::string, FileAxes> kAxesNames{
 struct EvalSettings {
   std::string truth;
   std::vector<std::string> estimates;
-  std::string times;  // of files without stamps; empty: looked for beside them
-  double offset = 0;  // added to the stamps of the estimates
+  std::string times;         // of files without stamps; empty: looked for beside them
+  double offset = 0;         // added to the stamps of the estimates
+  bool find_offset = false;  // and what is found for each of them
   io::EvaluationOptions options;
   std::vector<std::string> deltas;
   FileAxes axes = FileAxes::kAuto;
@@ -64,6 +67,19 @@ void bring_to_clock(const io::Trajectory& reference, io::Trajectory& poses, cons
   warnings.push_back(file + ": " + io::unit_note(unit));
 }
 
+// What the estimates are compared with: poses with stamps, or with the names of images.
+struct Reference {
+  TruthSource source;
+  std::optional<NamedPoses> named;
+};
+
+Reference load_reference(const EvalSettings& settings) {
+  Reference reference;
+  reference.named = find_named_poses(settings.truth);
+  if (!reference.named) reference.source = load_truth(settings.truth, settings.axes, settings.times);
+  return reference;
+}
+
 // Throws Error when one has stamps and the other has none.
 io::Trajectory take_estimate(const std::string& file, const EvalSettings& settings, const TruthSource& truth,
                              io::Warnings& warnings) {
@@ -78,19 +94,57 @@ io::Trajectory take_estimate(const std::string& file, const EvalSettings& settin
                        ": has fewer rows than the ground truth, and neither has stamps: rows are compared "
                        "with those of the same number");
   }
-  for (io::StampedPose& pose : estimate.trajectory) pose.stamp += settings.offset;
   return std::move(estimate.trajectory);
 }
 
+struct Compared {
+  io::Trajectory truth, estimate;
+};
+
+// Both with stamps of one clock, as far as names, units and what was asked for tell.
+Compared take_both(const std::string& file, const EvalSettings& settings, const Reference& reference,
+                   io::Warnings& warnings) {
+  Compared both;
+  const std::optional<NamedPoses> named = find_named_poses(file);
+  if (reference.named) {
+    const NameClock clock = named ? clock_of_names(*reference.named) : image_clock(file);
+    both.truth = stamped_poses(*reference.named, clock, settings.truth, warnings);
+    TruthSource stamped;
+    both.estimate = named ? stamped_poses(*named, clock, file, warnings)
+                          : take_estimate(file, settings, stamped, warnings);
+  } else {
+    both.truth = reference.source.trajectory;
+    both.estimate = named ? stamped_poses(*named, image_clock(settings.truth), file, warnings)
+                          : take_estimate(file, settings, reference.source, warnings);
+  }
+  for (io::StampedPose& pose : both.estimate) pose.stamp += settings.offset;
+  return both;
+}
+
+// Brings the estimate to the clock of the truth. Throws Error where the motions do not tell the offset.
+io::TimeOffset bring_by_motion(const std::string& file, Compared& both) {
+  const io::TimeOffset found = io::find_time_offset(both.truth, both.estimate);
+  if (!found.problem.empty())
+    throw Error(file + ": --find-offset: " + found.problem + "; give the offset with --offset");
+  for (io::StampedPose& pose : both.estimate) pose.stamp += found.offset;
+  return found;
+}
+
 nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& settings,
-                                const TruthSource& truth) {
+                                const Reference& reference) {
   io::Warnings warnings;
-  io::Trajectory estimate = take_estimate(file, settings, truth, warnings), against = truth.trajectory;
+  Compared both = take_both(file, settings, reference, warnings);
+  io::Trajectory &estimate = both.estimate, &against = both.truth;
   bring_to_clock(against, estimate, file, settings.options.max_difference, warnings);
   bring_to_clock(estimate, against, settings.truth, settings.options.max_difference, warnings);
   print_warnings(warnings);
+  std::optional<io::TimeOffset> offset;
+  if (settings.find_offset) offset = bring_by_motion(file, both);
   const io::Evaluation evaluation = io::evaluate(against, estimate, settings.options);
   if (settings.estimates.size() > 1) std::printf("%s\n", file.c_str());
+  if (offset)
+    std::printf("time offset      %+.4f, found; likeness of the motions %.3f\n", offset->offset,
+                offset->likeness);
   std::fputs(evaluation_table(evaluation).c_str(), stdout);
   if (settings.estimates.size() > 1) std::fputs("\n", stdout);
   if (!settings.plot.empty()) {
@@ -99,6 +153,7 @@ nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& set
                                            estimate.front().stamp, estimate.back().stamp, file));
   }
   nlohmann::ordered_json json = {{"ground_truth", settings.truth}, {"estimate", file}};
+  if (offset) json["time_offset"] = {{"offset", offset->offset}, {"likeness", offset->likeness}};
   json.update(evaluation_json(evaluation));
   return json;
 }
@@ -107,7 +162,8 @@ void run_eval(EvalSettings settings) {
   if (!settings.plot.empty() && settings.estimates.size() > 1)
     throw CLI::ValidationError("--plot",
                                "draws one estimate, found " + std::to_string(settings.estimates.size()));
-  const TruthSource truth = load_truth(settings.truth, settings.axes, settings.times);
+  const Reference reference = load_reference(settings);
+  const TruthSource& truth = reference.source;
   print_warnings(truth.warnings);
   if (truth.mirrored) print_note(settings.truth + ": poses with y up, mirrored to y down (see --axes)");
   io::EvaluationOptions& options = settings.options;
@@ -116,14 +172,14 @@ void run_eval(EvalSettings settings) {
   if (!settings.deltas.empty()) options.deltas.clear();
   for (const std::string& text : settings.deltas) options.deltas.push_back(parse_delta(text).value());
   if (settings.estimates.size() == 1) {
-    const nlohmann::ordered_json json = eval_one(settings.estimates.front(), settings, truth);
+    const nlohmann::ordered_json json = eval_one(settings.estimates.front(), settings, reference);
     if (!settings.json.empty()) write_json(settings.json, json);
     return;
   }
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : settings.estimates) {
     try {
-      all.push_back(eval_one(file, settings, truth));
+      all.push_back(eval_one(file, settings, reference));
     } catch (const Error& error) {
       print_error(error.what());  // the others have their figures nevertheless
     }
@@ -140,7 +196,8 @@ void add_eval_command(CLI::App& app) {
   auto settings = std::make_shared<EvalSettings>();
   io::EvaluationOptions& options = settings->options;
   eval->add_option("GROUNDTRUTH", settings->truth,
-                   "trajectory (TUM, EuRoC, KITTI, 4x4 matrices), or the folder of a dataset or a run")
+                   "trajectory (TUM, EuRoC, KITTI, 4x4 matrices, COLMAP's images), or the folder of a "
+                   "dataset or a run")
       ->required();
   eval->add_option("ESTIMATE", settings->estimates,
                    "trajectories, camera to world, or folders of runs; several are told one after the other")
@@ -148,6 +205,8 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("--times", settings->times, "stamps of trajectories without any (KITTI), one a row")
       ->type_name("FILE");
   eval->add_option("--offset", settings->offset, "seconds to add to the stamps of ESTIMATE; default 0");
+  eval->add_flag("--find-offset", settings->find_offset,
+                 "find the offset between the clocks from turn rates and speeds, for each ESTIMATE");
   add_choice(*eval, "--align", options.alignment, kAlignmentNames,
              "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3");
   eval->add_option("--max-difference", options.max_difference, "between the stamps of a pair; default 0.02")
