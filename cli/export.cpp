@@ -2,6 +2,7 @@
 // `sslam export RUN`: a run's trajectory or map in the form that another program reads.
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "cli/results/nerfstudio.hpp"
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
+#include "cli/results/scale_record.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/maps/colmap_writer.hpp"
 #include "sslam/io/trajectories/kitti.hpp"
@@ -39,9 +41,10 @@ struct ExportSettings {
 }
 
 std::string export_trajectory(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {
+  const std::string unit = is_metric(run.metrics) ? "unit: metres" : "";
   const std::string poses = std::to_string(run.trajectory.size()) + " poses";
   if (settings.format == "tum") {
-    io::write_trajectory(out / "trajectory.txt", run.trajectory);
+    io::write_trajectory(out / "trajectory.txt", run.trajectory, unit);
     return "trajectory.txt (" + poses + ")";
   }
   io::write_kitti_poses(out / "poses.txt", run.trajectory);
@@ -73,6 +76,18 @@ std::vector<io::Colour> point_colours(const RunFolder& run) {
   return colours;
 }
 
+// The run's camera is that of the undistorted images, and the files are those of the lens.
+void warn_of_wide_lens(const RunFolder& run) {
+  const auto settings = run.metrics.find("settings");
+  if (settings == run.metrics.end() || !settings->is_object()) return;
+  const auto degrees = settings->find("undistorted_to_degrees");
+  if (degrees == settings->end() || !degrees->is_number()) return;
+  print_warning(
+      "the run's images are of a wide lens, and the exported camera is that of a pinhole's view of " +
+      std::to_string(std::lround(degrees->get<double>())) +
+      " degrees across: undistort the images to it before they are used");
+}
+
 std::string export_colmap(const RunFolder& run, const fs::path& out) {
   const KeyframeImages images = keyframe_images(run);
   const std::vector<io::Colour> colours = point_colours(run);
@@ -102,6 +117,7 @@ std::string export_nerfstudio(const RunFolder& run, const fs::path& stage, const
 
 std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
                        const fs::path& out) {
+  if (settings.format == "colmap" || settings.format == "nerfstudio") warn_of_wide_lens(run);
   if (settings.format == "colmap") return export_colmap(run, stage);
   if (settings.format == "nerfstudio") return export_nerfstudio(run, stage, out);
   if (settings.format == "mcap") {
@@ -109,7 +125,7 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
     return "run.mcap (" + std::to_string(counts.poses) + " poses, " + std::to_string(counts.points) +
            " points, " + std::to_string(counts.lines) + " lines)";
   }
-  write_map_ply(stage / "map.ply", run.map, run.colours);
+  write_map_ply(stage / "map.ply", run.map, run.colours, is_metric(run.metrics) ? "unit: metres" : "");
   return "map.ply";
 }
 
@@ -128,7 +144,8 @@ void run_export(const ExportSettings& settings) {
   const std::string files = map ? export_map(settings, run, results.stage(), out)
                                 : export_trajectory(settings, run, results.stage());
   results.commit();
-  std::printf("written to       %s: %s\n", out.c_str(), files.c_str());
+  std::printf("written to       %s: %s; unit: %s\n", out.c_str(), files.c_str(),
+              is_metric(run.metrics) ? "metres" : "the map's own");
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/results/run_report.hpp"
+#include "cli/run/metric_scale.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/run/run_pass.hpp"
 #include "cli/run/self_calibration.hpp"
@@ -91,6 +92,30 @@ void add_dense(RunPass& pass) {
                           outcome.dense->warnings.end());
 }
 
+// Of the images as they come, for who tracks the recording.
+void keep_camera(const CameraChoice& camera, Recording& recording) {
+  if (camera.assumed) return;
+  CameraFile file;
+  file.camera = camera.camera;
+  file.wide = camera.wide;
+  if (file.wide) {
+    file.camera.pinhole = file.wide->pinhole;
+    if (file.wide->model != WideModel::kFisheye)
+      return print_warning("--record: a camera file for this lens is not written; put a copy of " +
+                           camera.source + " into the folder, as camera.yaml");
+  }
+  recording.keep_camera(file);
+}
+
+// In metres, where the settings ask for it and the map can tell.
+void bring_to_metres(const ScaleWish& wish, const ScaleInput& input, RunOutcome& outcome) {
+  outcome.scale = find_scale(wish, outcome, input);
+  apply_scale(outcome.scale, outcome);
+  if (!outcome.scale.problem.empty() && !outcome.trajectory.empty())
+    outcome.warnings.push_back("--scale " + outcome.scale.method + ": " + outcome.scale.problem +
+                               "; the results stay in the map's own unit");
+}
+
 // What a warning of a camera ends with: where to read the one that was found.
 std::string found_at(const RunSettings& settings) {
   return (std::filesystem::path(settings.out) / kCameraFoundFile).string();
@@ -107,6 +132,7 @@ void run(RunSettings settings) {
     if (!chosen.note.empty()) print_note(chosen.note);
   }
   const std::vector<ParameterValue> parameters = set_parameters(preset, settings.set);
+  const ScaleWish scale = parse_scale(settings.scale);
   Map<double> known;
   if (!settings.map.empty()) known = load_run_map(settings.map);
   std::optional<Recording> recording;
@@ -128,6 +154,10 @@ void run(RunSettings settings) {
   }
   print_notes(camera);
   check_normals(settings, dataset, camera.depth_factor);
+  check_scale(scale, dataset, camera.depth_factor);
+  check_wide(settings, camera);
+  std::optional<WideView> view;
+  if (camera.wide) view.emplace(*camera.wide, camera.view_fov);
   MaskSource masks;
   if (!settings.mask.empty()) masks = MaskSource(settings.mask, {camera.camera.width, camera.camera.height});
   Settings wanted = system_settings(settings, camera, parameters);
@@ -135,13 +165,15 @@ void run(RunSettings settings) {
   const FolderLock lock = FolderLock::demand(settings.out);
   if (!settings.record.empty()) {
     recording.emplace(settings.record);
-    if (!camera.assumed) recording->keep_camera(camera.camera);
+    keep_camera(camera, *recording);
   }
   if (!interrupt) interrupt.emplace();
-  const FrameStreamOptions stream{0, masks, source ? &*source : nullptr, recording ? &*recording : nullptr};
+  const FrameStreamOptions stream{0, masks, view ? &*view : nullptr, source ? &*source : nullptr,
+                                  recording ? &*recording : nullptr};
 
   // A map that is gone on in was made with its own camera.
-  const bool examines = settings.calibration != CalibrationMode::kFixed && known.empty();
+  // A view of a wide lens has no lens of its own.
+  const bool examines = settings.calibration != CalibrationMode::kFixed && known.empty() && !view;
   const bool repeats = examines && !settings.live && !settings.view && !source && !recording;
   SelfCalibration calibration(dataset, masks, camera, settings.calibration == CalibrationMode::kFind);
   if (repeats && calibration.is_guess()) {
@@ -167,9 +199,12 @@ void run(RunSettings settings) {
   }
 
   RunOutcome& outcome = pass->recorder.outcome;
-  if (settings.dense) add_dense(*pass);
   if (source) note_stream(*source, outcome);
   warn_of_useless_normals(settings.normals, outcome);
+  bring_to_metres(scale,
+                  {dataset, pass->context.working_camera, camera.depth_factor, is_metric_map(settings.map)},
+                  outcome);
+  if (settings.dense) add_dense(*pass);
   outcome.warnings.insert(outcome.warnings.begin(), calibration.warnings().begin(),
                           calibration.warnings().end());
   print_warnings(outcome.warnings);
@@ -213,6 +248,12 @@ void add_run_command(CLI::App& app) {
                    "Topic of a bag's depth images, for the same pixels; not needed where it has one alone")
       ->type_name("NAME");
   add_camera_options(*command, s->camera, s->focal, s->fov);
+  command
+      ->add_option("--undistort-fov", s->undistort_fov,
+                   "Of a lens that is too wide for a pinhole: degrees across of the view that its images are "
+                   "undistorted to; default 110, or what it sees")
+      ->check(CLI::Range(30.0, WideView::kWidest))
+      ->type_name("DEGREES");
   static const std::map<std::string, CalibrationMode> kCalibrations{{"fixed", CalibrationMode::kFixed},
                                                                     {"refine", CalibrationMode::kRefine},
                                                                     {"find", CalibrationMode::kFind}};
@@ -244,6 +285,12 @@ void add_run_command(CLI::App& app) {
       ->add_option("--map", s->map,
                    "Go on in the map of an earlier run, its map.sslam: poses are in that map's world")
       ->type_name("FILE");
+  command
+      ->add_option("--scale", s->scale,
+                   "Results in metres: depth (by the dataset's depth images), height=METRES (of the camera "
+                   "above the floor), known=METRES (between the first and the last frame with a pose) or "
+                   "known=METRES@A:B (between the frames A and B); default none: the map's own unit")
+      ->type_name("HOW");
   command->add_option("-o,--out", s->out, "Folder for the results")->capture_default_str()->type_name("DIR");
   command->add_option("--start", s->slice.start, "First frame")
       ->capture_default_str()
@@ -297,13 +344,15 @@ void add_run_command(CLI::App& app) {
   command->add_flag_callback(
       "--no-report", [s] { s->report = false; }, "Leave report.html and the pictures for it out");
   add_progress_options(*command, s->verbosity, true);
-  put_in_group(*command, "Input",
-               {"--topic", "--depth-topic", "--camera", "--focal", "--fov", "--calibration", "--start",
-                "--end", "--stride", "--fps", "--longest-side", "--mask", "--record", "--retry"});
+  put_in_group(
+      *command, "Input",
+      {"--topic", "--depth-topic", "--camera", "--focal", "--fov", "--undistort-fov", "--calibration",
+       "--start", "--end", "--stride", "--fps", "--longest-side", "--mask", "--record", "--retry"});
   put_in_group(*command, "Tracking",
                {"--normals", "--preset", "--set", "--list-parameters", "--seed", "--map", "--live",
                 "--no-final-pass"});
-  put_in_group(*command, "Output", {"--out", "--video", "--view", "--port", "--dense", "--no-report"});
+  put_in_group(*command, "Output",
+               {"--out", "--scale", "--video", "--view", "--port", "--dense", "--no-report"});
   put_in_group(*command, "Messages", {"--quiet", "--verbose", "--json-progress"});
   command->callback([s] { run(*s); });
 }

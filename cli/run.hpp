@@ -29,15 +29,17 @@ enum class CalibrationMode {
 
 struct RunSettings {
   std::string dataset;
-  io::BagTopics topics;  // of a bag: where its images and their depth are
-  std::string camera;    // file or name; empty: from the dataset
-  double focal = 0;      // pixels, for a camera without calibration; 0: not given
-  double fov = 0;        // the same as degrees across
+  io::BagTopics topics;      // of a bag: where its images and their depth are
+  std::string camera;        // file or name; empty: from the dataset
+  double focal = 0;          // pixels, for a camera without calibration; 0: not given
+  double fov = 0;            // the same as degrees across
+  double undistort_fov = 0;  // of the pinhole's view that a wide lens's images become, degrees; 0: the usual
   CalibrationMode calibration = CalibrationMode::kRefine;
   std::string normals;  // empty: the shipped network on demand where it is installed, else none
   std::string mask;     // image, or folder with one a frame, of the pixels to use; empty: all
   std::string preset = "structure";
-  std::string map;  // file of an earlier run to go on in; empty: none
+  std::string map;             // file of an earlier run to go on in; empty: none
+  std::string scale = "none";  // as parse_scale takes it
   std::string out = "out";
   io::Slice slice;
   std::vector<std::string> set;  // stage.parameter=value

@@ -72,6 +72,7 @@ class SuiteCheck {
       settings.normals = normals_for(method, sequence);
       in(method.normals_line, "[[method]]", [&] {
         check_normals(settings, dataset, camera.depth_factor);
+        check_wide(settings, camera);
         // A network takes a while to load: each source is looked at once.
         if (!settings.normals.empty() && sources_.insert(settings.normals).second)
           (void)choose_normals(settings.normals);

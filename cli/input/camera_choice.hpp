@@ -19,14 +19,16 @@
 #include "sslam/core/error.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::cli {
 
 // What the command line says about the camera.
 struct CameraWish {
-  std::string file;  // a file or the name of a built-in calibration; empty: not given
-  double focal = 0;  // pixels; 0: not given
-  double fov = 0;    // degrees across; 0: not given
+  std::string file;          // a file or the name of a built-in calibration; empty: not given
+  double focal = 0;          // pixels; 0: not given
+  double fov = 0;            // degrees across; 0: not given
+  double undistort_fov = 0;  // of a wide lens's pinhole view, degrees across; 0: the usual
 };
 
 struct CameraChoice {
@@ -35,8 +37,10 @@ struct CameraChoice {
   double frame_rate = 0;    // frames a second; 0: not known
   std::string source;       // for the report: a path or a name
   std::vector<std::string> notes, warnings;
-  bool assumed = false;       // nobody knows this camera
-  double focal_sigma = 0.05;  // how far the focal length may be off, as a part of it
+  bool assumed = false;            // nobody knows this camera
+  double focal_sigma = 0.05;       // how far the focal length may be off, as a part of it
+  std::optional<WideLens> wide{};  // of the images, where `camera` is that of a view of them
+  double view_fov = 0;             // of that view, degrees across
 };
 
 inline void print_notes(const CameraChoice& choice) {
@@ -45,8 +49,10 @@ inline void print_notes(const CameraChoice& choice) {
 }
 
 [[nodiscard]] inline CameraChoice camera_from_file(const std::filesystem::path& path) {
-  const CameraFile file = read_camera_file(path);
-  return {file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
+  const CameraFile file = read_wide_camera_file(path);
+  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
+  choice.wide = file.wide;
+  return choice;
 }
 
 [[nodiscard]] inline CameraChoice camera_from_text(const io::Dataset& dataset) {
@@ -159,6 +165,39 @@ inline constexpr double kRoughFocal = 0.1, kUnknownFocal = 0.4;
   return std::nullopt;
 }
 
+// A wide lens is looked through a pinhole's view of its images: brings `camera` to it. Throws Error when the
+// lens sees less than is asked for.
+inline void take_view(CameraChoice& choice, double wanted) {
+  if (!choice.wide) {
+    if (wanted > 0)
+      choice.notes.push_back("--undistort-fov is for wide lenses, and " + choice.source +
+                             " has none: left out");
+    return;
+  }
+  WideLens& lens = *choice.wide;
+  lens.pinhole = choice.camera.pinhole;
+  lens.width = choice.camera.width;
+  lens.height = choice.camera.height;
+  const double most = WideView::field_of(lens);
+  constexpr double kLeast = 40;  // degrees
+  char text[240];
+  if (most < kLeast || wanted > most) {
+    std::snprintf(text, sizeof text, ": this lens sees %.0f degrees across in images of %dx%d; %s", most,
+                  lens.width, lens.height,
+                  most < kLeast ? "are its coefficients those of another model or resolution?"
+                                : "--undistort-fov asks for more");
+    throw Error(choice.source + text);
+  }
+  choice.view_fov = wanted > 0 ? wanted : std::min(WideView::kUsual, most);
+  choice.camera = view_camera(lens, choice.view_fov);
+  std::snprintf(
+      text, sizeof text,
+      ": the lens sees %.0f degrees across; its images are undistorted to a pinhole's view of %.0f degrees "
+      "(--undistort-fov), and what lies beyond is not used",
+      most, choice.view_fov);
+  choice.notes.push_back(choice.source + text);
+}
+
 // For images of this size. Throws Error when the camera cannot be theirs.
 [[nodiscard]] inline CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, int width,
                                                 int height) {
@@ -166,6 +205,7 @@ inline constexpr double kRoughFocal = 0.1, kUnknownFocal = 0.4;
   if (!choice) choice = find_camera(wish.file, dataset);
   if (!choice) choice = assumed_camera(dataset, width, height);
   fit_camera(choice->camera, width, height, choice->source, choice->notes, choice->warnings);
+  take_view(*choice, wish.undistort_fov);
   return *choice;
 }
 

@@ -91,7 +91,9 @@ CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& datase
   const FirstImage first = find_first_image(dataset, claimed);
   if (first.stored.empty()) {
     if (claimed.empty()) throw Error(first.why + "; the camera's size is not known without it");
-    return *known;  // each frame tells
+    CameraChoice choice = *known;  // each frame tells
+    take_view(choice, wish.undistort_fov);
+    return choice;
   }
   const cv::Size size = !claimed.empty() ? claimed
                         : known          ? size_by_centre(known->camera.pinhole, first)

@@ -2,6 +2,7 @@
 #include "cli/input/frame_stream.hpp"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "cli/input/size_text.hpp"
@@ -138,6 +139,7 @@ void FrameStream::fill(SourceFrame& frame, ExtractedFrame& out) {
     std::string maskless;
     input.mask = options_.masks.of(input.name, maskless);
     if (!maskless.empty()) out.warning = maskless + "; all of the frame is used";
+    if (options_.view != nullptr) look_through(*options_.view, input);
     if (options_.recording != nullptr)
       options_.recording->add(entry.stamp * dataset_.seconds_per_stamp, frame, out.warning);
   }
@@ -158,11 +160,25 @@ std::string FrameStream::fault_of_normals(const ExtractedFrame& frame) {
          (whole ? ", and for others like it, which metrics.json counts" : "");
 }
 
+// Image and mask of a wide lens; depth has been refused.
+void FrameStream::look_through(const WideView& view, ImageInput& input) {
+  input.image = view.of(input.image);
+  cv::Mat mask = input.mask.empty() ? cv::Mat() : view.of(input.mask, cv::INTER_NEAREST);
+  if (mask.empty())
+    mask = view.seen();
+  else if (!view.seen().empty())
+    mask &= view.seen();
+  input.mask = mask;
+}
+
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) {
   if (entry.depth.empty() || !system_.reads_depth()) return;
   input.depth_factor = system_.settings().depth_factor;
   std::string why;
   input.depth = reader_.read_depth(entry, why);
+  // ScanNet's depth has fewer pixels, and another ratio of its sides by half a percent.
+  if (dataset_.layout == io::Layout::kScanNet && !input.depth.empty())
+    cv::resize(input.depth, input.depth, input.image.size(), 0, 0, cv::INTER_NEAREST);
   if (input.depth.empty()) out.warning = why + "; lines alone for this frame";
 }
 

@@ -19,6 +19,7 @@
 #include "cli/stream/live_source.hpp"
 #include "cli/stream/recording.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam::cli {
@@ -31,7 +32,9 @@ struct ExtractedFrame : Extraction {
 struct FrameStreamOptions {
   double pace = 0;  // seconds a unit of the stamps, to deliver frames as a camera would; 0: at once
   MaskSource masks;
-  LiveSource* source = nullptr;    // where frames come from, instead of the dataset's list
+  const WideView* view =
+      nullptr;                   // of a wide lens, to undistort its images; null: they are taken as they are
+  LiveSource* source = nullptr;  // where frames come from, instead of the dataset's list
   Recording* recording = nullptr;  // keeps what comes
 };
 
@@ -62,6 +65,7 @@ class FrameStream {
   [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
   void fill(SourceFrame& frame, ExtractedFrame& out);
   void read(SourceFrame& frame);
+  static void look_through(const WideView& view, ImageInput& input);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out);
 
   io::Dataset& dataset_;

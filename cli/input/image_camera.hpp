@@ -38,6 +38,9 @@ class ImageCamera {
                  size_text(width, height) + " (--camera gives another)");
       return;
     }
+    if (known_->wide)
+      throw Error(known_->source +
+                  ": a lens that is too wide for this; undistort the images, as sslam run does");
     fit_camera(known_->camera, width, height, known_->source, known_->notes, known_->warnings);
     print_notes(*known_);
   }

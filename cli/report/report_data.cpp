@@ -12,6 +12,7 @@
 
 #include "cli/report/base64.hpp"
 #include "cli/report/seen_part.hpp"
+#include "cli/results/scale_record.hpp"
 #include "cli/video/overlay_colours.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/maps/byte_archive.hpp"
@@ -132,6 +133,7 @@ class DataMaker {
       run_.problems.push_back(std::string("ground truth and trajectory do not fit together: ") +
                               error.what());
     }
+    if (!data_.contains("metres_per_unit") && is_metric(run_.metrics)) data_["metres_per_unit"] = 1;
     data_["problems"] = run_.problems;
     data_["program"] = std::string("sslam ") + SSLAM_VERSION;
     data_["folder"] = run_.name;

@@ -10,6 +10,7 @@
 
 #include "cli/results/calibration_record.hpp"
 #include "cli/results/map_colours.hpp"
+#include "cli/results/scale_record.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/system/engine.hpp"
@@ -41,6 +42,7 @@ struct RunOutcome {
   std::size_t stream_losses = 0;   // times that the stream broke and came back
   bool interrupted = false;
   std::shared_ptr<const DenseResult> dense;      // null where it was not asked for
+  ScaleRecord scale;                             // its factor is in poses and map
   std::optional<CalibrationRecord> calibration;  // nothing where it was not to be looked at
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "cli/results/map_colours.hpp"
@@ -14,9 +15,9 @@
 
 namespace sslam::cli {
 
-// Throws Error when it cannot be written.
+// `comment`: for the head of the file. Throws Error when it cannot be written.
 inline void write_map_ply(const std::filesystem::path& path, const Map<double>& map,
-                          const MapColours& colours) {
+                          const MapColours& colours, const std::string& comment = {}) {
   constexpr std::array<io::Colour, 4> kAxisColours{
       {{214, 69, 65}, {38, 166, 91}, {65, 131, 215}, {120, 120, 120}}};  // x, y, z, none
   const auto colour_of = [&](std::int8_t axis) {
@@ -37,7 +38,7 @@ inline void write_map_ply(const std::filesystem::path& path, const Map<double>& 
   for (std::size_t p = 0; p < extents.size(); ++p)
     if (map.planes[p].alive && extents[p].places > 0)
       faces.push_back({extents[p].corners(map.planes[p].plane), colour_of(map.planes[p].axis)});
-  io::write_map(path, points, lines, faces);
+  io::write_map(path, points, lines, faces, comment);
 }
 
 }  // namespace sslam::cli

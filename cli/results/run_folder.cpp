@@ -5,6 +5,7 @@
 
 #include "cli/results/json_file.hpp"
 #include "cli/results/result_set.hpp"
+#include "cli/results/scale_record.hpp"
 #include "cli/results/view_file.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/maps/map_file.hpp"
@@ -110,6 +111,17 @@ Map<double> load_run_map(const fs::path& file) {
   } catch (const Error&) {  // what stands beside a map need not be a run
   }
   return map;
+}
+
+bool is_metric_map(const fs::path& file) {
+  const fs::path metrics = file.parent_path() / "metrics.json";
+  std::error_code ignored;
+  if (file.empty() || !fs::is_regular_file(metrics, ignored)) return false;
+  try {
+    return is_metric(read_json_object(metrics));
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 MapColours load_map_colours(const fs::path& file, const Map<double>& map) {

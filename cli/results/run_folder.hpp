@@ -45,6 +45,9 @@ struct RunFolder {
 // The map in `file`, and a warning where it is not that of the run beside it. Throws Error.
 [[nodiscard]] Map<double> load_run_map(const std::filesystem::path& file);
 
+// Whether that map is in metres, by the run beside it.
+[[nodiscard]] bool is_metric_map(const std::filesystem::path& file);
+
 // The colours of that map, from the file beside it; none where there is no such file, and with a warning
 // where it does not fit.
 [[nodiscard]] MapColours load_map_colours(const std::filesystem::path& file, const Map<double>& map);

@@ -98,9 +98,11 @@ Json versions_json() {
   return {{"sslam", SSLAM_VERSION}, {"eigen", eigen}, {"opencv", CV_VERSION}, {"compiler", __VERSION__}};
 }
 
-std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::Trajectory& trajectory) {
+std::optional<io::Evaluation> evaluate_run(const RunContext& context, const io::Trajectory& trajectory,
+                                           io::Alignment alignment = io::Alignment::kSim3) {
   if (context.dataset.ground_truth.empty() || trajectory.size() < 3) return std::nullopt;
   io::EvaluationOptions options;
+  options.alignment = alignment;
   options.seconds_per_stamp = context.dataset.seconds_per_stamp;
   for (const io::FrameEntry& frame : context.dataset.frames) options.frame_stamps.push_back(frame.stamp);
   try {
@@ -140,7 +142,7 @@ void write_top_view_file(const fs::path& path, const RunContext& context, const 
   io::TopView view = io::comparison_view(context.dataset.ground_truth, outcome.trajectory,
                                          truth_from_estimate, context.dataset.frames.front().stamp,
                                          context.dataset.frames.back().stamp, context.settings.dataset);
-  if (!evaluation) view.unit = "map units";
+  if (!evaluation && !outcome.scale.metric) view.unit = "map units";
   for (const auto& point : outcome.map.points)
     if (point.alive) view.points.push_back(truth_from_estimate * point.position);
   io::write_top_view(path, view);
@@ -197,8 +199,18 @@ void write_found_camera(const fs::path& path, const RunContext& context, const C
   out.commit();
 }
 
+void print_scale(const RunOutcome& outcome, const std::optional<io::Evaluation>& evaluation,
+                 const std::optional<io::Evaluation>& metric) {
+  if (!outcome.scale.metric) return;
+  std::printf("unit             %s\n", scale_text(outcome.scale).c_str());
+  if (evaluation && metric)
+    std::printf("metric           position (ATE) %.4f m rmse by se3; the scale is off by %.2f %%\n",
+                metric->position.rmse, 100 * (1 / evaluation->truth_from_estimate.scale - 1));
+}
+
 void print_summary(const RunContext& context, const RunOutcome& outcome,
-                   const std::optional<io::Evaluation>& evaluation) {
+                   const std::optional<io::Evaluation>& evaluation,
+                   const std::optional<io::Evaluation>& metric) {
   const Json times = times_json(outcome);
   const std::size_t total = context.dataset.frames.size();
   std::printf("tracked          %zu of %zu frames (%.1f %%), %zu keyframes, %zu points, %zu lines\n",
@@ -227,6 +239,7 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
         outcome.apart.maps, outcome.apart.frames);
   if (outcome.calibration && outcome.calibration->last.verdict != CameraVerdict::kOpen)
     std::printf("camera           by the map: %s\n", camera_text(outcome.calibration->last.camera).c_str());
+  print_scale(outcome, evaluation, metric);
   if (outcome.dense && !outcome.dense->empty())
     std::printf("dense            %zu planes from %zu keyframes in %.1f s: %s, %s\n",
                 outcome.dense->model.planes.size(), outcome.dense->keyframes, outcome.dense->seconds,
@@ -245,12 +258,14 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
           {"camera", context.camera_source},
           {"pinhole", {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}},
           {"distortion", {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}},
+          {"undistorted_to_degrees", context.view_fov > 0 ? Json(context.view_fov) : Json()},
           {"image_size", {context.camera.width, context.camera.height}},
           {"working_size", {context.working_camera.width, context.working_camera.height}},
           {"seconds_per_stamp", context.dataset.seconds_per_stamp},
           {"normals", s.normals},
           {"preset", s.preset},
           {"map", s.map},
+          {"scale", s.scale},
           {"start", s.slice.start},
           {"end", s.slice.end},
           {"stride", s.slice.stride},
@@ -261,11 +276,12 @@ nlohmann::ordered_json settings_json(const RunContext& context) {
 }
 
 void write_run(const RunContext& context, const RunOutcome& outcome, const fs::path& out) {
-  io::write_trajectory(out / "trajectory.txt", outcome.trajectory);
+  const std::string unit = unit_comment(outcome.scale);
+  io::write_trajectory(out / "trajectory.txt", outcome.trajectory, unit);
   const io::Trajectory live = live_trajectory(outcome);
-  io::write_trajectory(out / "trajectory_live.txt", live);
-  io::write_trajectory(out / "keyframes.txt", outcome.keyframes);
-  write_map_ply(out / "map.ply", outcome.map, outcome.colours);
+  io::write_trajectory(out / "trajectory_live.txt", live, unit);
+  io::write_trajectory(out / "keyframes.txt", outcome.keyframes, unit);
+  write_map_ply(out / "map.ply", outcome.map, outcome.colours, unit);
   if (!outcome.map.empty()) io::save_map(out / "map.sslam", outcome.map);
   if (outcome.colours.any()) write_colours(out / kColourFile, outcome.colours);
   if (const io::Trajectory truth = truth_during(context.dataset, context.dataset.ground_truth);
@@ -276,6 +292,9 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   write_frames(out / "frames.csv", outcome);
   const auto evaluation = evaluate_run(context, outcome.trajectory);
   const auto live_evaluation = evaluate_run(context, live);
+  const auto metric = outcome.scale.metric && evaluation
+                          ? evaluate_run(context, outcome.trajectory, io::Alignment::kSe3)
+                          : std::nullopt;
   Json metrics = {{"frames", context.dataset.frames.size()},
                   {"tracked", outcome.trajectory.size()},
                   {"tracked_live", live.size()},
@@ -303,6 +322,8 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   if (evaluation) metrics["trajectory"] = evaluation_json(*evaluation);
   if (live_evaluation) metrics["trajectory_live"] = evaluation_json(*live_evaluation);
   if (outcome.dense) metrics["dense"] = dense_json(*outcome.dense);
+  if (metric) metrics["trajectory_se3"] = evaluation_json(*metric);
+  metrics["scale"] = scale_json(outcome.scale);
   metrics["warnings"] = outcome.warnings;
   if (outcome.calibration) {
     metrics["calibration"] = calibration_json(*outcome.calibration);
@@ -316,7 +337,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   write_top_view_file(out / "topview.svg", context, outcome, evaluation);
   metrics["files"] = checksums_of(out);
   write_json((out / "metrics.json").string(), metrics);
-  print_summary(context, outcome, evaluation);
+  print_summary(context, outcome, evaluation, metric);
 }
 
 }  // namespace sslam::cli

@@ -20,6 +20,8 @@ struct RunContext {
   std::string camera_source;
   Camera<double> camera;          // of the images
   Camera<double> working_camera;  // of the images as they are worked on
+  double view_fov = 0;  // degrees across that the images of a wide lens were undistorted to, the cameras'
+                        // view; 0: they are no such images
 };
 
 // What was asked for, as metrics.json has it; the parameters come from the outcome.

@@ -46,7 +46,7 @@ io::Dataset open_run_dataset(const RunSettings& settings) {
 }
 
 CameraChoice choose_run_camera(const RunSettings& settings, const io::Dataset& dataset) {
-  return camera_for_images({settings.camera, settings.focal, settings.fov}, dataset);
+  return camera_for_images({settings.camera, settings.focal, settings.fov, settings.undistort_fov}, dataset);
 }
 
 cv::Size size_of_stream_camera(const RunSettings& settings) {
@@ -57,7 +57,8 @@ cv::Size size_of_stream_camera(const RunSettings& settings) {
 }
 
 CameraChoice choose_stream_camera(const RunSettings& settings, const io::Dataset& dataset, cv::Size size) {
-  return choose_camera({settings.camera, settings.focal, settings.fov}, dataset, size.width, size.height);
+  return choose_camera({settings.camera, settings.focal, settings.fov, settings.undistort_fov}, dataset,
+                       size.width, size.height);
 }
 
 void check_live(const RunSettings& settings, const Preset& preset) {
@@ -75,6 +76,18 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
   if (!any) throw Error("--normals depth: " + settings.dataset + " has no depth images; use --normals none");
   if (!(depth_factor > 0))
     throw Error("--normals depth: the depth scale is not known; give DepthMapFactor in the camera file");
+}
+
+void check_wide(const RunSettings& settings, const CameraChoice& camera) {
+  if (!camera.wide) return;
+  const bool pixels = settings.normals == "depth" || settings.normals.starts_with("files:");
+  if (pixels)
+    throw Error("--normals " + settings.normals +
+                ": they are those of the wide lens's images, which are undistorted; " + "use none or onnx");
+  if (settings.scale == "depth")
+    throw Error(
+        "--scale depth: the depth images are those of a wide lens, whose images are undistorted; use "
+        "height=METRES or known=METRES");
 }
 
 std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set) {

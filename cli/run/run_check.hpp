@@ -35,6 +35,9 @@ void check_live(const RunSettings& settings, const Preset& preset);
 // Whether the dataset has what settings.normals need.
 void check_normals(const RunSettings& settings, const io::Dataset& dataset, double depth_factor);
 
+// Whether a lens that is too wide for a pinhole leaves what the settings ask for.
+void check_wide(const RunSettings& settings, const CameraChoice& camera);
+
 // Each "stage.parameter=value", if the preset has all these parameters and they take these values.
 [[nodiscard]] std::vector<ParameterValue> set_parameters(const Preset& preset,
                                                          const std::vector<std::string>& set);

@@ -36,7 +36,7 @@ class RunPass {
   RunPass(const RunSettings& settings, const io::Dataset& dataset, const CameraChoice& camera,
           Settings wanted)
       : system(std::move(wanted)),
-        context{settings, dataset, camera.source, camera.camera, system.camera()},
+        context{settings, dataset, camera.source, camera.camera, system.camera(), camera.view_fov},
         recorder(system.camera(), dataset.frames.size(), settings.report ? kMaxViews : 0),
         progress_(dataset.frames.size(), settings.verbosity, "run"),
         progress_observer_(progress_) {

@@ -47,7 +47,7 @@ constexpr double kMinGain = 0.02;
 CameraFinding probe(io::Dataset& dataset, Settings settings, const MaskSource& masks,
                     const CameraPrior& prior) {
   System system(std::move(settings));
-  FrameStream stream(dataset, system, {0, masks, nullptr, nullptr});
+  FrameStream stream(dataset, system, {0, masks, nullptr, nullptr, nullptr});
   ExtractedFrame input;
   constexpr std::array<std::size_t, 3> kEnough{20, 40, 80};  // keyframes at which the map is asked
   const auto* next = kEnough.begin();

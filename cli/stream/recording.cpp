@@ -43,11 +43,9 @@ Recording::Recording(fs::path folder) : folder_(std::move(folder)) {
   if (!list_) throw Error("--record " + folder_.string() + ": cannot write rgb.txt");
 }
 
-void Recording::keep_camera(const Camera<double>& camera) {
-  CameraFile file;
-  file.camera = camera;
+void Recording::keep_camera(const CameraFile& camera) {
   constexpr int kExact = 17;
-  io::write_text(folder_ / "camera.yaml", camera_yaml(file, "", kExact));
+  io::write_text(folder_ / "camera.yaml", camera_yaml(camera, "", kExact));
 }
 
 void Recording::add(double stamp, const SourceFrame& frame, std::string& warning) {

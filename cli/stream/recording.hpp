@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cli/stream/live_source.hpp"
-#include "sslam/geometry/camera.hpp"
+#include "sslam/opencv/camera/camera_keys.hpp"
 
 namespace sslam::cli {
 
@@ -18,7 +18,7 @@ class Recording {
   explicit Recording(std::filesystem::path folder);
 
   // The camera of the images, for who reads them.
-  void keep_camera(const Camera<double>& camera);
+  void keep_camera(const CameraFile& camera);
 
   // As it comes: what stands in the folder is a dataset at any time. An image's file is kept as it is, other
   // images as PNG. When it cannot be written, the recording ends, and `warning` says so.

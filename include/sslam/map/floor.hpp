@@ -17,7 +17,9 @@ template <Scalar S>
 struct FloorOptions {
   S max_lean = radians(S(40));  // between the vertical and the mean of the cameras' y axes
   S thickness = S(0.03);        // half of it, over the height of the cameras
-  S contrast = S(2.5);          // landmarks in the layer over those in as thick a layer above it
+  S contrast = S(1.6);          // landmarks in the layer over those in as thick a layer above it
+  S sigmas = S(3);              // by which the layer has more of them, against chance
+  S max_below = S(0.3);         // landmarks below the layer over those in it: under a floor there is nothing
   int min_support = 20;         // landmarks in it
   int samples = 400;            // triples that are tried where no Manhattan axis is vertical
 };
@@ -152,7 +154,10 @@ template <Scalar S>
     const auto [first, last] = layer_at(depths[i]);
     const S inside = static_cast<S>(last - first);
     const S above = static_cast<S>(first - from(depths[i] * (1 - 5 * options.thickness))) / 2;
-    if (inside < static_cast<S>(options.min_support) || inside < options.contrast * above) continue;
+    const S below = static_cast<S>(depths.size() - last);
+    if (inside < static_cast<S>(options.min_support) || inside < options.contrast * above ||
+        inside - above < options.sigmas * std::sqrt(inside + above) || below > options.max_below * inside)
+      continue;
     // Its edge was found: the layer is where most are.
     std::pair best(first, last);
     for (std::size_t k = i; k-- > 0 && depths[k] > depths[i] * (1 - 2 * options.thickness);) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <ostream>
 #include <span>
+#include <string>
 
 #include "sslam/core/types.hpp"
 #include "sslam/io/files/output_file.hpp"
@@ -36,13 +37,15 @@ struct MapFace {
   Colour colour{120, 120, 120};
 };
 
-// Throws Error when it cannot be written.
+// `comment`: a line more for the head of the file; empty: none. Throws Error when it cannot be written.
 inline void write_map(const std::filesystem::path& path, std::span<const MapPoint> points,
-                      std::span<const MapLine> lines, std::span<const MapFace> faces = {}) {
+                      std::span<const MapLine> lines, std::span<const MapFace> faces = {},
+                      const std::string& comment = {}) {
   OutputFile file(path);
   std::ostream& out = file.stream();
-  out << "ply\nformat ascii 1.0\ncomment points first, then start and end of each line, then corners\n"
-      << "element vertex " << points.size() + 2 * lines.size() + 4 * faces.size() << "\n"
+  out << "ply\nformat ascii 1.0\ncomment points first, then start and end of each line, then corners\n";
+  if (!comment.empty()) out << "comment " << comment << '\n';
+  out << "element vertex " << points.size() + 2 * lines.size() + 4 * faces.size() << "\n"
       << "property float x\nproperty float y\nproperty float z\n"
       << "property uchar red\nproperty uchar green\nproperty uchar blue\n"
       << "element edge " << lines.size() << "\n"

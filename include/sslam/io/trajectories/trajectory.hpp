@@ -80,10 +80,13 @@ inline void order_by_stamp(Trajectory& trajectory, const std::filesystem::path& 
                      ": the first pose of each is kept");
 }
 
-// Stamps as exact_decimal gives them, the rest with nine decimals. Throws Error when it cannot be written.
-inline void write_trajectory(const std::filesystem::path& path, std::span<const StampedPose> trajectory) {
+// Stamps as exact_decimal gives them, the rest with nine decimals. `comment`: a line more for the head of the
+// file; empty: none. Throws Error when it cannot be written.
+inline void write_trajectory(const std::filesystem::path& path, std::span<const StampedPose> trajectory,
+                             const std::string& comment = {}) {
   OutputFile file(path);
   file.stream() << "# stamp tx ty tz qx qy qz qw (camera to world)\n";
+  if (!comment.empty()) file.stream() << "# " << comment << '\n';
   char numbers[256];
   for (const StampedPose& pose : trajectory) {
     const auto q = pose.world_from_cam.rotation.quaternion();

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run/metric_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "cli/input/image_file.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "sslam/io/files/text.hpp"
+#include "sslam/map/depth_ratios.hpp"
+#include "sslam/map/floor.hpp"
+#include "sslam/map/rescale.hpp"
+
+namespace sslam::cli {
+namespace {
+
+constexpr const char* kExpected =
+    "expected none, depth, height=METRES, known=METRES or known=METRES@FRAME:FRAME";
+
+double parse_metres(const std::string& text, const std::string& whole) {
+  const auto value = io::parse_number<double>(text);
+  if (!value || !std::isfinite(*value) || !(*value > 0))
+    throw UsageError("--scale " + whole + ": '" + text + "' is no length in metres above 0; " + kExpected);
+  return *value;
+}
+
+// "120:480"
+void parse_frames(const std::string& text, const std::string& whole, ScaleWish& wish) {
+  const auto colon = text.find(':');
+  if (colon != std::string::npos) {
+    wish.first = io::parse_number<std::int64_t>(text.substr(0, colon));
+    wish.second = io::parse_number<std::int64_t>(text.substr(colon + 1));
+  }
+  if (!wish.first || !wish.second || *wish.first < 0 || *wish.second < 0 || wish.first == wish.second)
+    throw UsageError("--scale " + whole + ": '" + text + "' are no two frames such as 120:480; " + kExpected);
+}
+
+// Depth at an undistorted pixel of the images as they are worked on.
+class DepthImage {
+ public:
+  DepthImage(cv::Mat depth, double factor, const Camera<double>& working)
+      : depth_(std::move(depth)), factor_(depth_.depth() == CV_16U ? factor : 1), camera_(working) {}
+
+  // Neither depth nor colour is cut to the other's shape here.
+  [[nodiscard]] bool fits() const {
+    const double ratio = static_cast<double>(depth_.cols) * camera_.height / (depth_.rows * camera_.width);
+    return depth_.channels() == 1 && (depth_.depth() == CV_16U || depth_.depth() == CV_32F) &&
+           std::abs(ratio - 1) < 0.02;
+  }
+
+  // Metres along the optical axis; 0 where it was not measured, or where the surface ends nearby.
+  [[nodiscard]] double operator()(const Vec2<double>& undistorted) const {
+    constexpr double kStep = 1.05;  // within one surface, even a slanted one
+    const Vec2<double> pixel = camera_.distort_pixel(undistorted);
+    const int u = nearest(pixel.x(), camera_.width, depth_.cols);
+    const int v = nearest(pixel.y(), camera_.height, depth_.rows);
+    if (u < 1 || v < 1 || u >= depth_.cols - 1 || v >= depth_.rows - 1) return 0;
+    double low = at(u, v), high = low;
+    for (int dv = -1; dv <= 1; ++dv)
+      for (int du = -1; du <= 1; ++du) {
+        low = std::min(low, at(u + du, v + dv));
+        high = std::max(high, at(u + du, v + dv));
+      }
+    return low > 0 && high <= kStep * low ? at(u, v) : 0;
+  }
+
+ private:
+  static int nearest(double at, int from, int to) {
+    const double there = (at + 0.5) * to / from - 0.5;
+    return there > -1 && there < to ? static_cast<int>(std::lround(there)) : -1;
+  }
+  [[nodiscard]] double at(int u, int v) const {
+    const double raw = depth_.depth() == CV_16U ? static_cast<double>(depth_.at<std::uint16_t>(v, u))
+                                                : static_cast<double>(depth_.at<float>(v, u));
+    return std::isfinite(raw) && raw > 0 ? raw / factor_ : 0;
+  }
+
+  cv::Mat depth_;
+  double factor_;
+  const Camera<double>& camera_;
+};
+
+std::map<std::int64_t, const io::FrameEntry*> frames_with_depth(const io::Dataset& dataset) {
+  std::map<std::int64_t, const io::FrameEntry*> frames;
+  for (const io::FrameEntry& frame : dataset.frames)
+    if (!frame.depth.empty()) frames[frame.index] = &frame;
+  return frames;
+}
+
+void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRecord& scale) {
+  constexpr std::size_t kLandmarks = 10, kKeyframes = 2;  // of a keyframe; of the map
+  constexpr double kAgree = 0.3;
+  const auto frames = frames_with_depth(input.dataset);
+  std::vector<double> medians, all;
+  for (const Keyframe<double>& kf : outcome.map.keyframes) {
+    if (!kf.alive()) continue;
+    const auto entry = frames.find(kf.frame.index);
+    // A keyframe of the map that the run went on in may have the number of another image.
+    if (entry == frames.end() || entry->second->stamp != kf.frame.stamp) continue;
+    std::string why;
+    const cv::Mat read = load_depth(entry->second->depth, input.dataset.layout, why);
+    if (read.empty()) continue;
+    const DepthImage depth(read, input.depth_factor, input.working_camera);
+    if (!depth.fits()) {
+      scale.problem = entry->second->depth + ": is no depth image of the shape of the colour images";
+      return;
+    }
+    std::vector<double> ratios = depth_ratios(outcome.map, kf, depth);
+    if (ratios.size() < kLandmarks) continue;
+    all.insert(all.end(), ratios.begin(), ratios.end());
+    medians.push_back(median<double>(ratios));
+  }
+  scale.samples = static_cast<int>(medians.size());
+  scale.landmarks = static_cast<int>(all.size());
+  if (medians.size() < kKeyframes) {
+    scale.problem = std::to_string(medians.size()) + " keyframes have depth at " +
+                    std::to_string(kLandmarks) + " of their landmarks or more, " +
+                    std::to_string(kKeyframes) + " are needed";
+    return;
+  }
+  const CommonRatio<double> common = common_ratio<double>(medians);
+  scale.spread = common.spread;
+  // Depth of something else may have a middle, too.
+  const double apart = std::max(common.spread, common_ratio<double>(all).spread);
+  if (apart > kAgree) {
+    scale.problem = "depth and map do not agree: their ratio differs by " +
+                    std::to_string(static_cast<int>(100 * apart)) + " % from landmark to landmark";
+    return;
+  }
+  scale.factor = common.value;
+}
+
+void scale_by_height(double metres, const RunOutcome& outcome, ScaleRecord& scale) {
+  const Floor<double> floor = find_floor(outcome.map);
+  if (floor.status != FloorStatus::kFound) {
+    scale.problem = std::string("no floor was found: ") + name(floor.status);
+    return;
+  }
+  scale.factor = metres / floor.camera_height;
+  scale.spread = floor.spread;
+  scale.landmarks = floor.support;
+  scale.samples = static_cast<int>(std::count_if(outcome.map.keyframes.begin(), outcome.map.keyframes.end(),
+                                                 [](const Keyframe<double>& kf) { return kf.alive(); }));
+}
+
+// Where the camera was in a frame of this index; nothing where it has no pose.
+std::optional<Vec3<double>> place_of(const io::Dataset& dataset, const io::Trajectory& trajectory,
+                                     std::int64_t index) {
+  for (const io::FrameEntry& frame : dataset.frames) {
+    if (frame.index != index) continue;
+    const auto pose = std::find_if(trajectory.begin(), trajectory.end(),
+                                   [&](const io::StampedPose& p) { return p.stamp == frame.stamp; });
+    if (pose != trajectory.end()) return pose->world_from_cam.translation;
+  }
+  return std::nullopt;
+}
+
+void scale_by_distance(const ScaleWish& wish, const RunOutcome& outcome, const ScaleInput& input,
+                       ScaleRecord& scale) {
+  constexpr double kFarEnough = 0.02;  // of the path's extent: less is as uncertain as the path itself
+  const io::Trajectory& path = outcome.trajectory;
+  if (path.size() < 2) {
+    scale.problem = "fewer than two frames have a pose";
+    return;
+  }
+  Vec3<double> a = path.front().world_from_cam.translation, b = path.back().world_from_cam.translation;
+  if (wish.first) {
+    for (const auto& [index, place] : {std::pair(*wish.first, &a), std::pair(*wish.second, &b)}) {
+      const auto found = place_of(input.dataset, path, index);
+      if (!found) {
+        scale.problem = "frame " + std::to_string(index) + " has no pose";
+        return;
+      }
+      *place = *found;
+    }
+  }
+  Vec3<double> low = a, high = a;
+  for (const io::StampedPose& pose : path) {
+    low = low.cwiseMin(pose.world_from_cam.translation);
+    high = high.cwiseMax(pose.world_from_cam.translation);
+  }
+  const double apart = (b - a).norm();
+  if (!(apart > kFarEnough * (high - low).norm())) {
+    scale.problem = std::string(wish.first ? "the two frames" : "the first and the last frame with a pose") +
+                    " stand at nearly the same place; name two that do not, as known=METRES@FRAME:FRAME";
+    return;
+  }
+  scale.factor = wish.metres / apart;
+}
+
+}  // namespace
+
+ScaleWish parse_scale(const std::string& text) {
+  ScaleWish wish;
+  if (text == "none") return wish;
+  if (text == "depth") {
+    wish.method = ScaleMethod::kDepth;
+    return wish;
+  }
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (equals == std::string::npos || (name != "height" && name != "known"))
+    throw UsageError("--scale " + text + ": " + kExpected);
+  std::string value = text.substr(equals + 1);
+  wish.method = name == "height" ? ScaleMethod::kHeight : ScaleMethod::kKnown;
+  if (const auto at = value.find('@'); at != std::string::npos && wish.method == ScaleMethod::kKnown) {
+    parse_frames(value.substr(at + 1), text, wish);
+    value.resize(at);
+  }
+  wish.metres = parse_metres(value, text);
+  return wish;
+}
+
+void check_scale(const ScaleWish& wish, const io::Dataset& dataset, double depth_factor) {
+  const bool stream = dataset.layout == io::Layout::kStream;
+  if (wish.method == ScaleMethod::kDepth) {
+    if (frames_with_depth(dataset).empty())
+      throw Error("--scale depth: " + dataset.root.string() +
+                  " has no depth images; use height=METRES or known=METRES");
+    if (!(depth_factor > 0))
+      throw Error("--scale depth: the depth scale is not known; give DepthMapFactor in the camera file");
+  }
+  if (!wish.first || stream) return;
+  for (const std::int64_t index : {*wish.first, *wish.second})
+    if (std::none_of(dataset.frames.begin(), dataset.frames.end(),
+                     [index](const io::FrameEntry& frame) { return frame.index == index; }))
+      throw Error("--scale known: frame " + std::to_string(index) + " is not among those that are tracked, " +
+                  std::to_string(dataset.frames.front().index) + " to " +
+                  std::to_string(dataset.frames.back().index));
+}
+
+ScaleRecord find_scale(const ScaleWish& wish, const RunOutcome& outcome, const ScaleInput& input) {
+  ScaleRecord scale;
+  switch (wish.method) {
+    case ScaleMethod::kNone:
+      if (input.metric_map) {
+        scale.method = "map";
+        scale.metric = true;
+      }
+      return scale;
+    case ScaleMethod::kDepth:
+      scale.method = "depth";
+      scale_by_depth(outcome, input, scale);
+      break;
+    case ScaleMethod::kHeight:
+      scale.method = "height";
+      scale_by_height(wish.metres, outcome, scale);
+      break;
+    case ScaleMethod::kKnown:
+      scale.method = "known";
+      scale_by_distance(wish, outcome, input, scale);
+      break;
+  }
+  if (scale.problem.empty() && !(scale.factor > 0 && std::isfinite(scale.factor)))
+    scale.problem = "the map has no extent to measure";
+  if (scale.problem.empty())
+    scale.metric = true;
+  else
+    scale.factor = 1;
+  return scale;
+}
+
+void apply_scale(const ScaleRecord& scale, RunOutcome& outcome) {
+  if (scale.factor == 1) return;
+  rescale(outcome.map, scale.factor);
+  for (io::Trajectory* poses : {&outcome.trajectory, &outcome.keyframes})
+    for (io::StampedPose& pose : *poses) pose.world_from_cam = rescaled(pose.world_from_cam, scale.factor);
+  for (FrameRecord& frame : outcome.frames)
+    frame.cam_from_world = rescaled(frame.cam_from_world, scale.factor);
+}
+
+}  // namespace sslam::cli

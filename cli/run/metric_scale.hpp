@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Metres for a map that has a unit of its own: from depth images, from the camera's height above the floor,
+// or from a distance that is known.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cli/results/frame_record.hpp"
+#include "cli/results/scale_record.hpp"
+#include "sslam/geometry/camera.hpp"
+#include "sslam/io/datasets/dataset.hpp"
+
+namespace sslam::cli {
+
+enum class ScaleMethod { kNone, kDepth, kHeight, kKnown };
+
+// What --scale asks for.
+struct ScaleWish {
+  ScaleMethod method = ScaleMethod::kNone;
+  double metres = 0;                          // height, or known distance
+  std::optional<std::int64_t> first, second;  // frames that are `metres` apart; empty: the first and the last
+                                              // with a pose
+};
+
+// "none", "depth", "height=1.4", "known=2.5", "known=2.5@120:480". Throws UsageError.
+[[nodiscard]] ScaleWish parse_scale(const std::string& text);
+
+// Whether the dataset has what is asked for, before anything is tracked. Throws Error.
+void check_scale(const ScaleWish& wish, const io::Dataset& dataset, double depth_factor);
+
+struct ScaleInput {
+  const io::Dataset& dataset;
+  const Camera<double>& working_camera;  // of the images as they are worked on
+  double depth_factor = 0;               // value of a metre in 16 bit depth images
+  bool metric_map = false;               // the map that the run went on in was in metres
+};
+
+// The scale of the outcome's map, which is left as it is. Where none is found, `problem` says why.
+[[nodiscard]] ScaleRecord find_scale(const ScaleWish& wish, const RunOutcome& outcome,
+                                     const ScaleInput& input);
+
+// Brings poses and map to metres.
+void apply_scale(const ScaleRecord& scale, RunOutcome& outcome);
+
+}  // namespace sslam::cli
