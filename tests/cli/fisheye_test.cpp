@@ -86,7 +86,7 @@ TEST_CASE("run undistorts a fisheye of 180 degrees to a pinhole's view, and says
   CHECK(metrics["settings"]["distortion"][0] == 0);
   CHECK(!metrics.contains("calibration"));
   INFO("ATE " << metrics["trajectory"]["ate_m"]["rmse"]);
-  CHECK(metrics["trajectory"]["ate_m"]["rmse"].get<double>() < 0.02);
+  CHECK(metrics["trajectory"]["ate_m"]["rmse"].get<double>() < 0.0024);  // twice what was measured
   CHECK(run_program("export " + run.out.string() + " --format colmap")
             .text.find("undistort the images to it") != std::string::npos);
   // The recording has the images and the lens as they came.

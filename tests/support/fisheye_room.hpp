@@ -26,7 +26,7 @@ struct FisheyeRoom {
 // pixels: by bisection, as far as `widest`.
 [[nodiscard]] inline double angle_at(const WideLens& lens, double radius, double widest) {
   double low = 0, high = widest;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
     Vec2<double> pixel;
     const bool seen = lens.project({std::sin(middle), 0, std::cos(middle)}, pixel);
