@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/input/image_file.hpp"
+#include "cli/input/frame_reader.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/map/depth_ratios.hpp"
@@ -94,6 +94,7 @@ void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRec
   constexpr std::size_t kLandmarks = 10, kKeyframes = 2;  // of a keyframe; of the map
   constexpr double kAgree = 0.3;
   const auto frames = frames_with_depth(input.dataset);
+  FrameReader reader(input.dataset);
   std::vector<double> medians, all;
   for (const Keyframe<double>& kf : outcome.map.keyframes) {
     if (!kf.alive()) continue;
@@ -101,7 +102,7 @@ void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRec
     // A keyframe of the map that the run went on in may have the number of another image.
     if (entry == frames.end() || entry->second->stamp != kf.frame.stamp) continue;
     std::string why;
-    const cv::Mat read = load_depth(entry->second->depth, input.dataset.layout, why);
+    const cv::Mat read = reader.read_depth(*entry->second, why);
     if (read.empty()) continue;
     const DepthImage depth(read, input.depth_factor, input.working_camera);
     if (!depth.fits()) {
