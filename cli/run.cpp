@@ -128,7 +128,8 @@ void run(RunSettings settings) {
   check_live(settings, preset);
   if (settings.normals.empty()) {
     const DefaultNormals chosen = default_normals(find_shipped_model(), preset.use_normals);
-    settings.normals = chosen.source;
+    // The dense model looks at the normals of every keyframe.
+    settings.normals = settings.dense ? source_of_normals(chosen.source) : chosen.source;
     if (!chosen.note.empty()) print_note(chosen.note);
   }
   const std::vector<ParameterValue> parameters = set_parameters(preset, settings.set);
