@@ -62,14 +62,10 @@ class DenseRun {
  private:
   void gather(DenseResult& result) {
     const double scale = std::min(1.0, static_cast<double>(kWidth) / camera_.width);
-    std::size_t strangers = 0;
     for (const Keyframe<double>& keyframe : map_.keyframes) {
       if (!keyframe.alive()) continue;
       const KeyframePicture* const picture = pictures_.of(keyframe);
-      if (picture == nullptr) {
-        ++strangers;
-        continue;
-      }
+      if (picture == nullptr) continue;
       const cv::Mat image = straight_image(*picture);
       cv::Mat grey;
       cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
@@ -85,10 +81,6 @@ class DenseRun {
     }
     result.keyframes = views_.size();
     scale_ = scale;
-    if (strangers > 0)
-      result.warnings.push_back(
-          "--dense: " + std::to_string(strangers) +
-          " keyframes of an earlier run have no images here: the model does without them");
     if (!views_.empty() && !result.colour)
       result.warnings.emplace_back("--dense: the images have no colour: the model is grey");
   }
