@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "cli/calibrate/board_print.hpp"
 #include "cli/calibrate/board_views.hpp"
 #include "cli/calibrate/calibration.hpp"
 #include "cli/calibrate/coverage.hpp"
@@ -15,6 +16,8 @@
 #include "cli/input/camera_yaml.hpp"
 #include "cli/input/open_images.hpp"
 #include "cli/input/video_reader.hpp"
+#include "cli/shell/choice_option.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
@@ -28,10 +31,11 @@ namespace fs = std::filesystem;
 
 struct CalibrateSettings {
   std::string images;
+  std::string print;  // file for the board itself, instead of images; empty: none
   BoardSettings board;
   std::string out = "camera.yaml";
   double frame_rate = 0;  // 0: of the video, else left out
-  bool k3 = false;
+  bool fisheye = false, k3 = false;
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -49,6 +53,7 @@ void write_camera(const CalibrateSettings& settings, const io::Dataset& dataset,
                   const Calibration& calibration) {
   CameraFile file;
   file.camera = calibration.camera;
+  file.wide = calibration.wide;
   file.frame_rate = settings.frame_rate;
   if (file.frame_rate == 0 && dataset.layout == io::Layout::kVideo)
     file.frame_rate = VideoReader(dataset.root).info().frame_rate;
@@ -70,6 +75,14 @@ void print_camera(const Calibration& c) {
               c.fx_sigma, c.fy_sigma);
   std::printf("principal point  %.2f, %.2f of %dx%d pixels\n", pinhole.cx, pinhole.cy, c.camera.width,
               c.camera.height);
+  if (c.wide) {
+    const WideLens& wide = *c.wide;
+    std::printf("field of view    %.1f x %.1f degrees\n", degrees(wide.reach({-1, 0}) + wide.reach({1, 0})),
+                degrees(wide.reach({0, -1}) + wide.reach({0, 1})));
+    std::printf("fisheye          k1 %.5f, k2 %.5f, k3 %.5f, k4 %.5f\n", wide.k[0], wide.k[1], wide.k[2],
+                wide.k[3]);
+    return;
+  }
   std::printf("field of view    %.1f x %.1f degrees\n", across, down);
   std::printf("distortion       k1 %.5f, k2 %.5f, p1 %.5f, p2 %.5f, k3 %.5f\n", lens.k1, lens.k2, lens.p1,
               lens.p2, lens.k3);
@@ -88,7 +101,22 @@ void print_summary(const CalibrateSettings& settings, const BoardViews& found,
   std::printf("written to       %s, %s\n", settings.out.c_str(), picture_path(settings.out).c_str());
 }
 
+void print_board(const CalibrateSettings& settings) {
+  const Board board(settings.board);
+  io::prepare_output_folder(folder_of(settings.print));
+  const PrintedBoard print = printed_board(board.settings(), board.charuco());
+  const std::string sheet = write_board(settings.print, print);
+  std::printf("written to       %s: %s, %g x %g mm, on %s; print at 100 %%\n", settings.print.c_str(),
+              board.text().c_str(), print.width, print.height, sheet.c_str());
+}
+
 void run_calibrate(const CalibrateSettings& settings) {
+  if (!settings.print.empty()) return print_board(settings);
+  if (settings.images.empty()) throw CLI::RequiredError("IMAGES");
+  if (settings.fisheye && settings.k3) throw UsageError("--k3: not with --model fisheye, which has k1 to k4");
+  const LensKind kind = settings.fisheye ? LensKind::kFisheye
+                        : settings.k3    ? LensKind::kThird
+                                         : LensKind::kPinhole;
   const io::Dataset dataset = open_images(settings.images);
   print_warnings(dataset.warnings);
   const Board board(settings.board);
@@ -101,7 +129,7 @@ void run_calibrate(const CalibrateSettings& settings) {
                 " images; needs at least " + std::to_string(kLeastViews) + ", better 15 or more");
   Calibration calibration;
   try {
-    calibration = calibrate(found.views, found.size, settings.k3);
+    calibration = calibrate(found.views, found.size, kind);
   } catch (const Error& error) {
     throw Error(settings.images + ": " + error.what());
   }
@@ -150,9 +178,9 @@ void add_calibrate_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("calibrate", "A camera file from images of a chessboard or a ChArUco board");
   auto s = std::make_shared<CalibrateSettings>();
-  command->add_option("IMAGES", s->images, "folder of images, quoted glob, or video")
-      ->required()
-      ->type_name("FILE");
+  CLI::Option* const images =
+      command->add_option("IMAGES", s->images, "folder of images, quoted glob, or video; not with --print")
+          ->type_name("FILE");
   add_board_options(*command, s->board);
   command->add_option("-o,--out", s->out, "camera file; NAME_coverage.png goes beside it")
       ->capture_default_str()
@@ -162,6 +190,15 @@ void add_calibrate_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_flag("--k3", s->k3,
                     "a third radial coefficient, for wide lenses that are covered to the corners");
+  static const std::map<std::string, bool> kModels{{"pinhole", false}, {"fisheye", true}};
+  add_choice(*command, "--model", s->fisheye, kModels,
+             "pinhole, or fisheye (Kannala-Brandt, for lenses that see more than about 120 degrees); default "
+             "pinhole");
+  command
+      ->add_option("--print", s->print,
+                   "write the board itself, as PDF or SVG in its true size, and stop: --print board.pdf")
+      ->excludes(images)
+      ->type_name("FILE");
   add_progress_options(*command, s->verbosity, false);
   command->callback([s] { run_calibrate(*s); });
 }

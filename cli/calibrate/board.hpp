@@ -41,6 +41,10 @@ class Board {
   // either.
   [[nodiscard]] std::string what_else(const cv::Mat& grey) const;
 
+  [[nodiscard]] const BoardSettings& settings() const noexcept { return settings_; }
+  // Of a chessboard: none.
+  [[nodiscard]] const cv::Ptr<cv::aruco::CharucoBoard>& charuco() const noexcept { return charuco_; }
+
   // "9x6 inner corners" or "9x6 squares"
   [[nodiscard]] std::string text() const;
 

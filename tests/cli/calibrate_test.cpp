@@ -5,10 +5,12 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/board_renderer.hpp"
+#include "cli/calibrate/board.hpp"
 #include "cli/program.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "support/catch.hpp"
@@ -209,6 +211,98 @@ TEST_CASE("calibrate says which board is there instead") {
     shoot(session.folder, good_placements(), charuco_picture(9, 6, kSquare));
     require_refused(session, session.calibrate("--pattern charuco --size 7x8"), "check --size and --pattern");
   }
+}
+
+TEST_CASE("calibrate --model fisheye finds a lens of 170 degrees, and run takes its file") {
+  sslam::WideLens lens;
+  lens.width = 640;
+  lens.height = 480;
+  lens.pinhole = {215, 214, 322.5, 236};
+  lens.k = {0.02, -0.006, 0.001, 0, 0};
+  const std::vector<Placement> placements{
+      {{0.1, 0, 0.05}, {0, 0, 0.2}},          {{0.5, 0, 0}, {-0.05, -0.1, 0.2}},
+      {{-0.5, 0, 0.1}, {0.05, 0.1, 0.2}},     {{0, 0.6, 0}, {-0.25, 0.03, 0.22}},
+      {{0, -0.6, 0}, {0.25, -0.03, 0.22}},    {{0.3, 0.7, 0}, {-0.25, -0.12, 0.2}},
+      {{-0.3, 0.7, 0}, {-0.25, 0.12, 0.2}},   {{0.3, -0.7, 0}, {0.25, -0.12, 0.2}},
+      {{-0.3, -0.7, 0}, {0.25, 0.12, 0.2}},   {{0.35, 0.35, 0.2}, {0.08, 0.06, 0.2}},
+      {{-0.35, 0.4, 0}, {-0.1, -0.06, 0.22}}, {{0.2, 0.2, 1.5}, {0.02, 0, 0.25}}};
+  const Session session;
+  fs::create_directories(session.folder);
+  const std::vector<cv::Vec3d> rays = fisheye_rays(lens);
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    REQUIRE(cv::imwrite(
+        (session.folder / (std::to_string(i) + ".png")).string(),
+        seen_by(rays, {lens.width, lens.height}, chessboard(), placements[i].turn, placements[i].middle)));
+  const Outcome outcome = session.calibrate("--size 8x5 --model fisheye");
+  INFO(outcome.text << text_of(session.out));
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find("fisheye          k1 ") != std::string::npos);
+  REQUIRE(text_of(session.out).find("Camera.type: \"KannalaBrandt8\"") != std::string::npos);
+  const sslam::CameraFile found = sslam::read_wide_camera_file(session.out);
+  REQUIRE(found.wide);
+  // Where it shows what is 60 degrees off its axis, by a pixel: coefficients trade off against each other.
+  for (const sslam::Vec3<double>& ray :
+       {sslam::Vec3<double>(0.866, 0, 0.5), sslam::Vec3<double>(-0.6, 0.62, 0.5),
+        sslam::Vec3<double>(0, -0.7, 0.7), sslam::Vec3<double>(0.01, 0.01, 1)}) {
+    sslam::Vec2<double> wanted, seen;
+    REQUIRE(lens.project(ray, wanted));
+    REQUIRE(found.wide->project(ray, seen));
+    CHECK((seen - wanted).norm() < 1);
+  }
+  const Outcome both = session.calibrate("--model fisheye --k3");
+  CHECK(both.code == 2);
+  CHECK(both.text.find("--k3: not with --model fisheye") != std::string::npos);
+}
+
+TEST_CASE("calibrate --print writes the board that it looks for, in its true size") {
+  const ScratchFolder scratch;
+  const fs::path file = scratch.path() / "board.pdf";
+  const auto pattern = GENERATE(sslam::cli::Pattern::kChessboard, sslam::cli::Pattern::kCharuco);
+  const bool markers = pattern == sslam::cli::Pattern::kCharuco;
+  const Outcome outcome = run_program("calibrate --print " + file.string() + " --size 8x5 --square 0.03" +
+                                      (markers ? " --pattern charuco" : ""));
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  REQUIRE(outcome.text.find(markers ? "240 x 150 mm, on A4" : "270 x 180 mm, on A4") != std::string::npos);
+  const std::string pdf = text_of(file);
+  REQUIRE(pdf.starts_with("%PDF-1.4\n"));
+  // Each object stands where the table says.
+  std::istringstream table(pdf.substr(pdf.rfind("xref\n0 6\n") + 9));
+  std::string line;
+  std::getline(table, line);
+  for (int object = 1; object <= 5; ++object) {
+    std::getline(table, line);
+    REQUIRE(pdf.compare(std::stoul(line), 7, std::to_string(object) + " 0 obj") == 0);
+  }
+  // Drawn with 4 pixels a millimetre, and found.
+  double width = 0, height = 0;
+  const auto box = pdf.find("/MediaBox [0 0 ");
+  REQUIRE(std::sscanf(pdf.c_str() + box, "/MediaBox [0 0 %lf %lf]", &width, &height) == 2);
+  constexpr double kPixels = 4, kPoint = 72 / 25.4;
+  cv::Mat sheet(static_cast<int>(height / kPoint * kPixels), static_cast<int>(width / kPoint * kPixels),
+                CV_8UC1, cv::Scalar(255));
+  std::istringstream lines(pdf);
+  for (double x = 0, y = 0, w = 0, h = 0; std::getline(lines, line);) {
+    if (!line.ends_with(" re") || std::sscanf(line.c_str(), "%lf %lf %lf %lf", &x, &y, &w, &h) != 4) continue;
+    const cv::Point2d from(x * kPixels, sheet.rows - (y + h) * kPixels), size(w * kPixels, h * kPixels);
+    sheet(cv::Rect(cv::Point(cvRound(from.x), cvRound(from.y)),
+                   cv::Point(cvRound(from.x + size.x), cvRound(from.y + size.y))))
+        .setTo(0);
+  }
+  sslam::cli::BoardSettings settings;
+  settings.pattern = pattern;
+  settings.columns = 8;
+  settings.rows = 5;
+  settings.square = 0.03;
+  const sslam::cli::BoardView view = sslam::cli::Board(settings).find(sheet);
+  REQUIRE(view.image.size() == (markers ? 28 : 40));
+  for (std::size_t i = 1; i < view.image.size(); ++i) {
+    const double on_board = cv::norm(view.board[i] - view.board[0]);
+    CHECK(std::abs(cv::norm(view.image[i] - view.image[0]) - on_board * 1000 * kPixels) < 1);
+  }
+  const Outcome other = run_program("calibrate --print " + (scratch.path() / "board.txt").string());
+  CHECK(other.code == 2);
+  CHECK(other.text.find("writes a .pdf or an .svg") != std::string::npos);
 }
 
 }  // namespace calibrate_test
