@@ -9,6 +9,7 @@
 #include "support/map_errors.hpp"
 
 namespace scale_test {
+namespace {
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -36,8 +37,7 @@ Map<double> turned(Map<double> map, const SE3<double>& new_from_old) {
 
 const SE3<double> kTurn{SO3<double>::exp({0.5, -0.9, 0.3}), {1, 2, 3}};
 
-}  // namespace scale_test
-using namespace scale_test;
+}  // namespace
 
 TEST_CASE("A map in another unit looks the same from every keyframe") {
   MapScene scene = make_scene();
@@ -140,3 +140,5 @@ TEST_CASE("Walls alone are no floor, and rolled cameras know no down") {
   CHECK(find_floor(rolled).status == FloorStatus::kNoVertical);
   CHECK(find_floor(Map<double>()).status == FloorStatus::kNoVertical);
 }
+
+}  // namespace scale_test
