@@ -14,7 +14,7 @@
 using namespace sslam;
 using namespace sslam::cli;
 
-namespace ros_image_tests {
+namespace ros_image_test {
 
 io::ImageMessage message(std::uint32_t width, std::uint32_t height, std::string_view encoding,
                          std::uint32_t step, std::string_view data) {
@@ -42,9 +42,9 @@ cv::Mat colour(const io::ImageMessage& message) {
   return image;
 }
 
-}  // namespace ros_image_tests
+}  // namespace ros_image_test
 
-using namespace ros_image_tests;
+using namespace ros_image_test;
 
 TEST_CASE("Each encoding of ROS's images becomes BGR") {
   using namespace std::string_view_literals;

@@ -12,6 +12,8 @@
 #include "sslam/io/trajectories/read_trajectory.hpp"
 #include "support/catch.hpp"
 
+namespace scale_test {
+
 namespace fs = std::filesystem;
 using namespace sslam;
 using namespace sslam::testing;
@@ -143,3 +145,5 @@ TEST_CASE("run says why a scale cannot be found, and keeps the results without i
   fs::remove(copy.folder / "depth.txt");
   require_refused(copy.run("--scale depth"), "has no depth images; use height=METRES or known=METRES");
 }
+
+}  // namespace scale_test
