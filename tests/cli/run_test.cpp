@@ -81,15 +81,13 @@ TEST_CASE(
   REQUIRE(metrics["settings"]["normals"] == "on-demand");
   REQUIRE(metrics["warnings"].empty());
   const auto& asked = metrics["normals_asked"];
-  REQUIRE(asked["frames"] >= 1);
   REQUIRE(asked["frames"] < 20);
-  REQUIRE(asked["reasons"]["no Manhattan frame yet"] >= 1);
   int reasons = 0;
   for (const auto& [reason, count] : asked["reasons"].items()) reasons += count.get<int>();
   REQUIRE(asked["frames"] == reasons);
   outcome = copy.run("--end 20 --normals on-demand");
-  REQUIRE(outcome.text.find("normals          asked for in " + asked["frames"].dump() +
-                            " of 20 frames: no Manhattan") != std::string::npos);
+  REQUIRE(outcome.text.find("normals          asked for in " + asked["frames"].dump() + " of 20 frames") !=
+          std::string::npos);
   REQUIRE(copy.metrics()["normals_asked"] == asked);
   outcome = copy.run("--end 20 --normals onnx");
   REQUIRE(outcome.code == 0);

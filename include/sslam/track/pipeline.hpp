@@ -31,11 +31,14 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   bool keep_frames = false;    // frames are kept for a final pass, when finish() is called
 
   // Why the normals of a frame that has none yet could change its pose. Asked before the frame is tracked,
-  // and changes nothing: without normals it is tracked by its lines. A frame that is lost is looked for by
-  // its features.
+  // and changes nothing: without normals it is tracked by its lines. A frame that the map holds has its
+  // rotation from there, and one that is lost is looked for by its features.
   [[nodiscard]] NormalNeed normal_need(const Frame<S>& frame) {
-    if (world_.map.empty()) return Worlds::need(frame, frames_.current().cam_from_world.rotation, world_.map);
+    const TrackedFrame<S>& last = frames_.current();
+    if (world_.map.empty()) return Worlds::need(frame, last.cam_from_world.rotation, world_.map);
     if (trial.lost() && !motion.reaches(frame.stamp)) return NormalNeed::kNotNeeded;
+    const int held_by = count_held(last.point_landmarks) + count_held(last.line_landmarks);
+    if (!trial.lost() && held_by >= demand.options.held_by) return NormalNeed::kNotNeeded;
     return Worlds::need(frame, motion.predict(frame.stamp).rotation, world_.map);
   }
 

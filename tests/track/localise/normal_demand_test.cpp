@@ -69,7 +69,7 @@ NormalAxes<double> axes_seen(const SO3<double>& cam_from_manhattan, double sigma
 
 using namespace normal_demand_test;
 
-TEST_CASE("Where lines show the room in every frame, normals are asked for once, and change nothing") {
+TEST_CASE("Where lines show the room in every frame, normals are hardly asked for, and change nothing") {
   const auto path = walk(90);
   Simulation plain(path), asking(path);
   Structure lines_alone, on_demand;
@@ -83,10 +83,14 @@ TEST_CASE("What the lines leave open is why normals are asked for") {
   Simulation simulation(walk(60));
   Structure pipeline;
   Frame<double> first = simulation.frame(0);
+  CHECK(pipeline.normal_need(first) == NormalNeed::kNotNeeded);
+  keep_axis(first, simulation.truth(0).rotation, 1);
   CHECK(pipeline.normal_need(first) == NormalNeed::kNoManhattanFrame);
   track_first(pipeline, simulation, 59);
   REQUIRE(pipeline.trajectory().entries().size() > 40);
   const Frame<double> whole = simulation.frame(59);
+  CHECK(pipeline.normal_need(simulation.dark_frame(59)) == NormalNeed::kNotNeeded);  // the map holds it
+  pipeline.demand.options.held_by = 1000000;                                         // as if it did not
   CHECK(pipeline.normal_need(whole) == NormalNeed::kNotNeeded);
   Frame<double> bare = whole;
   bare.lines.clear();

@@ -17,11 +17,16 @@ struct NormalDemandOptions {
   // By lines alone, about any axis; half of RotationOptions::max_sigma. Normals of a network are good to 5
   // degrees: what lines know better than this they change by less than 3 %.
   S max_sigma = radians(S(0.75));
+  // Points and lines of the map that the last frame was found by: from so many on they give the next rotation
+  // to tenths of a degree, and normals that lines do not bear out can only mislead.
+  int held_by = 30;
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
           "standard deviation of a rotation by lines alone, above which normals are asked for");
+    visit("held_by", self.held_by, Unit::kCount, 0, 1e6,
+          "points and lines of the map in the last frame, from which on no normals are asked for");
   }
 };
 static_assert(Described<NormalDemandOptions<double>>);
