@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run/whole_run.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "cli/dense/dense_result.hpp"
+#include "cli/input/shipped_model.hpp"
+#include "cli/report.hpp"
+#include "cli/results/result_set.hpp"
+#include "cli/results/run_folder.hpp"
+#include "cli/results/run_report.hpp"
+#include "cli/run/run_check.hpp"
+#include "cli/shell/exit_code.hpp"
+#include "cli/shell/messages.hpp"
+#include "cli/stream/stream_name.hpp"
+
+namespace sslam::cli {
+namespace {
+
+// Why the last frame has no pose, if it has none.
+std::string last_reason_of(const RunOutcome& outcome) {
+  return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().reason);
+}
+
+// A source of normals that gives nothing, view after view, is wrong as a whole: its manifest, or its scale.
+void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
+  constexpr std::size_t kEnough = 10;  // frames, to tell a fault from a view of clutter
+  std::size_t asked = 0;
+  bool any = false;
+  for (const FrameRecord& frame : outcome.frames) {
+    if (frame.normal_need == NormalNeed::kNotNeeded) continue;
+    ++asked;
+    any = any || frame.normal_status == NormalStatus::kOk;
+  }
+  if (any || asked < kEnough) return;
+  outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(asked) +
+                             " frames has normals that are of use; sslam normals shows what a network sees");
+}
+
+void note_stream(const LiveSource& source, RunOutcome& outcome) {
+  const StreamFigures figures = source.figures();
+  outcome.frames_dropped = figures.dropped;
+  outcome.stream_losses = figures.lost;
+  if (!figures.end.empty()) outcome.warnings.push_back(figures.end);
+}
+
+// What it has to say is a warning of the run.
+void add_dense(RunPass& pass) {
+  RunOutcome& outcome = pass.recorder.outcome;
+  outcome.dense = std::make_shared<const DenseResult>(
+      make_dense(outcome.map, pass.recorder.pictures, pass.system.camera()));
+  outcome.warnings.insert(outcome.warnings.end(), outcome.dense->warnings.begin(),
+                          outcome.dense->warnings.end());
+}
+
+// Of the images as they come, for who tracks the recording.
+void keep_camera(const CameraChoice& camera, Recording& recording) {
+  if (camera.assumed) return;
+  CameraFile file;
+  file.camera = camera.camera;
+  file.wide = camera.wide;
+  if (file.wide) {
+    file.camera.pinhole = file.wide->pinhole;
+    if (file.wide->model != WideModel::kFisheye)
+      return print_warning("--record: a camera file for this lens is not written; put a copy of " +
+                           camera.source + " into the folder, as camera.yaml");
+  }
+  recording.keep_camera(file);
+}
+
+// In metres, where the settings ask for it and the map can tell.
+void bring_to_metres(const ScaleWish& wish, const ScaleInput& input, RunOutcome& outcome) {
+  outcome.scale = find_scale(wish, outcome, input);
+  apply_scale(outcome.scale, outcome);
+  if (!outcome.scale.problem.empty() && !outcome.trajectory.empty())
+    outcome.warnings.push_back("--scale " + outcome.scale.method + ": " + outcome.scale.problem +
+                               "; the results stay in the map's own unit");
+}
+
+}  // namespace
+
+void WholeRun::open() {
+  const Preset& preset = choose_preset(settings_.preset);
+  check_live(settings_, preset);
+  if (settings_.normals.empty()) choose_normals_source();
+  parameters_ = set_parameters(preset, settings_.set);
+  scale_ = parse_scale(settings_.scale);
+  if (!settings_.map.empty()) known_ = load_run_map(settings_.map);
+  goes_on_ = !known_.empty();
+  open_images();
+  print_notes(camera_);
+  check_normals(settings_, dataset_, camera_.depth_factor);
+  check_scale(scale_, dataset_, camera_.depth_factor);
+  check_wide(settings_, camera_);
+  if (camera_.wide) view_.emplace(*camera_.wide, camera_.view_fov);
+  if (!settings_.mask.empty())
+    masks_ = MaskSource(settings_.mask, {camera_.camera.width, camera_.camera.height});
+  wanted_ = system_settings();
+  open_output();
+  if (!interrupt_) interrupt_.emplace();
+}
+
+void WholeRun::choose_normals_source() {
+  const DefaultNormals chosen =
+      default_normals(find_shipped_model(), choose_preset(settings_.preset).use_normals);
+  // The dense model looks at the normals of every keyframe.
+  settings_.normals = settings_.dense ? source_of_normals(chosen.source) : chosen.source;
+  if (!chosen.note.empty()) print_note(chosen.note);
+}
+
+void WholeRun::open_images() {
+  const std::optional<StreamName> stream = stream_named(settings_.dataset);
+  if (!stream) {
+    dataset_ = open_run_dataset(settings_);
+    camera_ = choose_run_camera(settings_, dataset_);
+    return;
+  }
+  interrupt_.emplace();  // it may never send anything
+  source_.emplace(*stream, StreamOptions{settings_.live, settings_.retry, settings_.frame_rate,
+                                         settings_.slice, size_of_stream_camera(settings_)});
+  const cv::Size size = source_->wait_for_first();
+  dataset_ = source_->dataset();
+  settings_.dataset = dataset_.root.string();
+  camera_ = choose_stream_camera(settings_, dataset_, size);
+}
+
+void WholeRun::open_output() {
+  io::prepare_output_folder(settings_.out);
+  lock_.emplace(FolderLock::demand(settings_.out));
+  if (settings_.record.empty()) return;
+  recording_.emplace(settings_.record);
+  keep_camera(camera_, *recording_);
+}
+
+void WholeRun::track() {
+  calibration_.emplace(dataset_, masks_, camera_, settings_.calibration == CalibrationMode::kFind);
+  if (repeats() && calibration_->is_guess()) {
+    calibration_->find(std::move(wanted_), camera_, found_at());
+    wanted_ = system_settings();
+  }
+  begin_pass();
+  if (examines() && !outcome().interrupted) examine_camera();
+  follow_up();
+}
+
+void WholeRun::begin_pass() {
+  pass_ = std::make_unique<RunPass>(settings_, dataset_, camera_, std::move(wanted_));
+  if (!known_.empty()) pass_->go_on_in(std::exchange(known_, {}));
+  pass_->track(dataset_, stream_options());
+}
+
+void WholeRun::examine_camera() {
+  calibration_->examine(pass_->system);
+  if (repeats() && !calibration_->is_guess() && calibration_->contradicts()) {
+    pass_.reset();
+    calibration_->find(system_settings(), camera_, found_at());
+    wanted_ = system_settings();
+    begin_pass();
+    calibration_->examine(pass_->system);
+  } else if (calibration_->contradicts()) {
+    pass_->system.warn(calibration_->advice(found_at()));
+  }
+  outcome().calibration = calibration_->record();
+}
+
+void WholeRun::follow_up() {
+  RunOutcome& outcome = this->outcome();
+  if (source_) note_stream(*source_, outcome);
+  warn_of_useless_normals(settings_.normals, outcome);
+  bring_to_metres(
+      scale_, {dataset_, pass_->context.working_camera, camera_.depth_factor, is_metric_map(settings_.map)},
+      outcome);
+  if (settings_.dense) add_dense(*pass_);
+  outcome.warnings.insert(outcome.warnings.begin(), calibration_->warnings().begin(),
+                          calibration_->warnings().end());
+  print_warnings(outcome.warnings);
+}
+
+void WholeRun::write() {
+  RunOutcome& outcome = this->outcome();
+  ResultSet results(settings_.out);
+  write_run(pass_->context, outcome, results.stage());
+  const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();
+  const std::string last_reason = last_reason_of(outcome);
+  outcome = {};  // the report is made from the files, and needs the room
+  std::string page;
+  if (settings_.report || pass_->live)
+    page = report_of(results.stage(), folder_name(std::filesystem::path(settings_.out)));
+  if (settings_.report) write_report(results.stage(), page);
+  results.commit(kOptionalFiles);
+  std::printf("written to       %s\n", settings_.out.c_str());
+  if (pass_->video) pass_->video->commit();
+  if (interrupted || Interrupt::asked()) {
+    print_warning("interrupted; what had been computed was written");
+    throw Stop{ExitCode::kInterrupted};
+  }
+  if (!tracked) print_error(settings_.dataset + ": no frame was tracked; last reason: " + last_reason);
+  if (pass_->live) pass_->live->show(std::move(page));
+  if (!tracked) throw Stop{ExitCode::kFailed};
+}
+
+Settings WholeRun::system_settings() const {
+  Settings wanted;
+  wanted.preset = settings_.preset;
+  wanted.parameters = parameters_;
+  wanted.camera = camera_.camera;
+  wanted.depth_factor = camera_.depth_factor;
+  wanted.normals = choose_normals(settings_.normals);
+  wanted.seed = settings_.seed;
+  wanted.live = settings_.live;
+  wanted.longest_side = settings_.longest_side;
+  wanted.final_pass = settings_.final_pass;
+  wanted.keep_pictures = true;  // the map's colours come from them
+  return wanted;
+}
+
+FrameStreamOptions WholeRun::stream_options() {
+  return {0, masks_, view_ ? &*view_ : nullptr, source_ ? &*source_ : nullptr,
+          recording_ ? &*recording_ : nullptr};
+}
+
+// A map that is gone on in was made with its own camera; a view of a wide lens has no lens of its own.
+bool WholeRun::examines() const {
+  return settings_.calibration != CalibrationMode::kFixed && !goes_on_ && !view_;
+}
+
+bool WholeRun::repeats() const {
+  return examines() && !settings_.live && !settings_.view && !source_ && !recording_;
+}
+
+std::string WholeRun::found_at() const {
+  return (std::filesystem::path(settings_.out) / kCameraFoundFile).string();
+}
+
+void run(RunSettings settings) {
+  WholeRun whole(std::move(settings));
+  whole.open();
+  whole.track();
+  whole.write();
+}
+
+}  // namespace sslam::cli
