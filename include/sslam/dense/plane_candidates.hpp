@@ -164,7 +164,8 @@ class CandidateFinder {
     candidate.samples = members.size();
     PlaneExtent<double> extent(candidate.fit.plane.normal);
     for (const std::size_t i : members) extent.add(samples_[i].place);
-    candidate.bounded = {candidate.fit.plane, plane_basis(map_, candidate.fit.plane.normal), {}, {}};
+    candidate.bounded.plane = candidate.fit.plane;
+    candidate.bounded.basis = plane_basis(map_, candidate.fit.plane.normal);
     bound(members, candidate.bounded);
     if (candidate.fit.determined && extent.least_spread() > options_.min_spread * depth_)
       found_.push_back(candidate);

@@ -42,11 +42,9 @@ class PoseTracking {
 
   // What the normals of a frame could do for its rotation, of which its lines alone say what they can.
   [[nodiscard]] NormalNeed need(const Frame<S>& frame, const SO3<S>& predicted, const Map<S>& map) {
+    if (map.world_from_manhattan.empty()) return NormalNeed::kNoManhattanFrame;
     trial_rotation_ = rotation;
-    const RotationAnswer<S> by_lines =
-        trial_rotation_.rotate(frame, predicted, {map.world_from_manhattan, !map.empty()});
-    if (!map.world_from_manhattan.empty()) return demand.need(by_lines);
-    return by_lines.trusted() ? NormalNeed::kNotNeeded : NormalNeed::kNoManhattanFrame;
+    return demand.need(trial_rotation_.rotate(frame, predicted, {map.world_from_manhattan, !map.empty()}));
   }
 
   // The current frame, from those before it.

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "model_fixture.hpp"
-#include "sha256.hpp"
 #include "support/catch.hpp"
 
 using namespace sslam;

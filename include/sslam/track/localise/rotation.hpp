@@ -90,11 +90,6 @@ class ManhattanRotation {
     }
     if (known.world_fixed || !known.world_from_manhattan.empty())
       return name(std::nullopt, known.world_from_manhattan);
-    // Normals lean together: with lines that contradict them, they begin no world.
-    if (normals_.size > 0 && !votes_.empty() && !certain(total_covariance())) {
-      sightings.see_nothing();
-      return std::nullopt;
-    }
     discovered_ = SO3<S>();  // this frame becomes the axes of the world
     return 0;
   }
@@ -120,21 +115,11 @@ class ManhattanRotation {
     sightings.see(index, world_from_manhattan, predicted_.inverse() * estimate_.cam_from_manhattan);
     RotationObservation<S> rotation;
     rotation.cam_from_world = estimate_.cam_from_manhattan * world_from_manhattan.inverse();
-    rotation.covariance = total_covariance();
-    return {{{rotation, certain(rotation.covariance), index}},
-            estimate_.axes_seen,
-            line_axes_,
-            discovered_,
-            normal_axes()};
-  }
-
-  // Of the estimate, with what the building is off square.
-  [[nodiscard]] Mat3<S> total_covariance() const {
-    return estimate_.covariance + options.squareness * options.squareness * Mat3<S>::Identity();
-  }
-  [[nodiscard]] bool certain(const Mat3<S>& covariance) const {
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(covariance, Eigen::EigenvaluesOnly);
-    return std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
+    rotation.covariance =
+        estimate_.covariance + options.squareness * options.squareness * Mat3<S>::Identity();
+    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(rotation.covariance, Eigen::EigenvaluesOnly);
+    const bool certain = std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
+    return {{{rotation, certain, index}}, estimate_.axes_seen, line_axes_, discovered_, normal_axes()};
   }
 
   [[nodiscard]] NormalAxes<S> normal_axes() const {
