@@ -42,10 +42,6 @@ cv::Mat colour(const io::ImageMessage& message) {
   return image;
 }
 
-}  // namespace ros_image_test
-
-using namespace ros_image_test;
-
 TEST_CASE("Each encoding of ROS's images becomes BGR") {
   using namespace std::string_view_literals;
   const cv::Vec3b red(0, 0, 255);
@@ -138,3 +134,5 @@ TEST_CASE("A chunk is unpacked as it was packed, and not where its size is a lie
   }
   CHECK(chunk_codec().crc32("123456789") == 0xCBF43926U);  // the check value of CRC-32
 }
+
+}  // namespace ros_image_test

@@ -90,10 +90,6 @@ RenderedRoom rich_room(int frames) {
   return render_room(house, frames);
 }
 
-}  // namespace normals_on_demand_test
-
-using namespace normals_on_demand_test;
-
 TEST_CASE("Where lines show the room, normals are asked for rarely, and the result is as good") {
   const RenderedRoom room = rich_room(60);
   const Outcome every = track(room, settings_of(room, false)),
@@ -147,3 +143,5 @@ TEST_CASE("A preset without a Manhattan world asks for no normals") {
   settings.preset = "features";
   CHECK(track(room, settings).asked() == 0);
 }
+
+}  // namespace normals_on_demand_test

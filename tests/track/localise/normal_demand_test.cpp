@@ -65,10 +65,6 @@ NormalAxes<double> axes_seen(const SO3<double>& cam_from_manhattan, double sigma
   return seen;
 }
 
-}  // namespace normal_demand_test
-
-using namespace normal_demand_test;
-
 TEST_CASE("Where lines show the room in every frame, normals are hardly asked for, and change nothing") {
   const auto path = walk(90);
   Simulation plain(path), asking(path);
@@ -158,3 +154,5 @@ TEST_CASE("Normals that lie, in each frame and all alike, lose their weight to t
   CHECK(lied_to.trust.plane_sigma(radians(4.7)) > radians(10.0));
   CHECK(position_error(lied_to, told) < 2 * position_error(lines_alone, plain) + 1e-3);
 }
+
+}  // namespace normal_demand_test
