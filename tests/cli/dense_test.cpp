@@ -11,10 +11,10 @@
 #include "cli/room_copy.hpp"
 #include "support/catch.hpp"
 
+namespace dense_test {
+
 namespace fs = std::filesystem;
 using namespace sslam::testing;
-
-namespace dense_run_test {
 
 std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -48,10 +48,7 @@ std::string part(const Glb& glb, std::size_t view) {
   return glb.binary.substr(v["byteOffset"], v["byteLength"]);
 }
 
-}  // namespace dense_run_test
-
 TEST_CASE("run --dense writes a model that viewers can open, and a run without it takes the model away") {
-  using namespace dense_run_test;
   const RoomCopy copy;
   const Outcome outcome = copy.run("--dense --no-report");
   INFO(outcome.text);
@@ -90,3 +87,5 @@ TEST_CASE("run --dense writes a model that viewers can open, and a run without i
   REQUIRE_FALSE(fs::exists(copy.out / "model.glb"));
   REQUIRE_FALSE(fs::exists(copy.out / "model.ply"));
 }
+
+}  // namespace dense_test

@@ -11,10 +11,10 @@
 #include "cli/input/chunk_codec.hpp"
 #include "support/catch.hpp"
 
+namespace ros_image_test {
+
 using namespace sslam;
 using namespace sslam::cli;
-
-namespace ros_image_test {
 
 io::ImageMessage message(std::uint32_t width, std::uint32_t height, std::string_view encoding,
                          std::uint32_t step, std::string_view data) {
