@@ -51,6 +51,7 @@ class DenseBuilder {
     model.candidates = candidates.size();
     if (candidates.empty()) return model;
     std::vector<BoundedPlane> planes;
+    planes.reserve(candidates.size());
     for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.bounded);
     label(views, planes, median_depth, model.labels);
     const CellVoter voter(views, planes, model.labels, options_.cells);

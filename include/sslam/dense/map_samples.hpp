@@ -33,8 +33,9 @@ struct MapSample {
 [[nodiscard]] inline Mat<double, 3, 2> plane_basis(const Map<double>& map, const Vec3<double>& normal) {
   Mat<double, 3, 2> basis = tangent_basis(normal);
   double least = 1;
-  for (std::int8_t axis = 0; axis < (map.world_from_manhattan.empty() ? 0 : 3); ++axis) {
-    const Vec3<double> along = map.axis(axis);
+  const int axes = map.world_from_manhattan.empty() ? 0 : 3;
+  for (int axis = 0; axis < axes; ++axis) {
+    const Vec3<double> along = map.axis(static_cast<std::int8_t>(axis));
     const double slant = std::abs(along.dot(normal));
     if (slant >= least) continue;
     least = slant;

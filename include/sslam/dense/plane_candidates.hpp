@@ -155,6 +155,7 @@ class CandidateFinder {
   void add(const Plane3<double>& start, std::int8_t axis, const std::vector<std::size_t>& members,
            double tilt) {
     std::vector<PlaneSample> samples;
+    samples.reserve(members.size());
     for (const std::size_t i : members)
       samples.push_back(
           {samples_[i].place, std::max(sigma_along(map_, samples_[i], start.normal), 0.2 * tolerance())});
