@@ -273,7 +273,8 @@ TEST_CASE("export refuses what it cannot use with one line") {
   require_refused(export_run(copy.out, "--format kitti"), "trajectory.txt: is missing");
   const Outcome unknown = export_run(copy.out, "--format bundler");
   REQUIRE(unknown.code == 2);
-  REQUIRE(unknown.text.find("sslam: error: --format: bundler not in {colmap,kitti,mcap,nerfstudio,ply,tum}") == 0);
+  REQUIRE(unknown.text.find(
+              "sslam: error: --format: bundler not in {colmap,kitti,mcap,nerfstudio,ply,tum}") == 0);
 }
 
 }  // namespace export_test
