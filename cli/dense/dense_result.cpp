@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/dense/dense_result.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 #include "cli/dense/model_files.hpp"
 #include "cli/results/run_folder.hpp"
 #include "sslam/dense/map_samples.hpp"
 #include "sslam/dense/map_views.hpp"
+#include "sslam/map/vertical.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
 #include "sslam/opencv/normals/normal_picture.hpp"
 #include "sslam/opencv/view_of.hpp"
@@ -97,19 +100,14 @@ class DenseRun {
     result.atlas = make_atlas(input);
   }
 
-  // The Manhattan axis that is nearest to the cameras' up, else that itself.
+  // The axis of the first Manhattan frame that is nearest to the cameras' up, else that itself.
   [[nodiscard]] Vec3<double> up() const {
-    Vec3<double> mean = Vec3<double>::Zero();
-    for (const Keyframe<double>& keyframe : map_.keyframes)
-      if (keyframe.alive()) mean -= keyframe.cam_from_world.inverse().rotation.matrix().col(1);
-    if (!(mean.norm() > 1e-9)) return -Vec3<double>::UnitY();
-    mean.normalize();
-    for (int axis = 0; axis < (map_.world_from_manhattan.empty() ? 0 : 3); ++axis) {
-      const Vec3<double> direction = map_.axis(static_cast<std::int8_t>(axis));
-      if (std::abs(direction.dot(mean)) > std::cos(radians(30.0)))
-        return std::copysign(1.0, direction.dot(mean)) * direction;
-    }
-    return mean;
+    const Vec3<double> down = mean_down(map_);
+    if (!(down.norm() > 1e-9)) return -Vec3<double>::UnitY();
+    const std::span<const SO3<double>> frames = map_.world_from_manhattan;
+    const Vec3<double> axis = vertical_axis<double>(frames.first(std::min<std::size_t>(frames.size(), 1)),
+                                                    down.normalized(), radians(30.0));
+    return axis.isZero() ? Vec3<double>(-down.normalized()) : Vec3<double>(-axis);
   }
 
   const Map<double>& map_;

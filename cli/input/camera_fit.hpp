@@ -10,19 +10,9 @@
 #include "cli/input/size_text.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/geometry/camera_check.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 
 namespace sslam::cli {
-
-// Of images that were resized after calibration; the first pixel's centre is (0, 0).
-[[nodiscard]] inline Camera<double> scaled_camera(const Camera<double>& camera, int width, int height) {
-  const double x = static_cast<double>(width) / camera.width, y = static_cast<double>(height) / camera.height;
-  const Pinhole<double>& p = camera.pinhole;
-  Camera<double> scaled = camera;
-  scaled.pinhole = {p.fx * x, p.fy * y, (p.cx + 0.5) * x - 0.5, (p.cy + 0.5) * y - 0.5};
-  scaled.width = width;
-  scaled.height = height;
-  return scaled;
-}
 
 // Gives `camera` the images' size, or throws Error; `source` is what to name. What the user should know is
 // added to `notes` and `warnings`.
@@ -40,7 +30,7 @@ inline void fit_camera(Camera<double>& camera, int width, int height, const std:
   if (given != wanted) {
     const std::string both = source + ": is for " + given + " pixels, and the images have " + wanted;
     if (same_shape(width, height)) {
-      camera = scaled_camera(camera, width, height);
+      camera = resized(camera, width, height);
       notes.push_back(both + ": scaled to them");
     } else if (same_shape(height, width)) {
       throw Error(both +

@@ -84,7 +84,7 @@ void bring_to_metres(const ScaleWish& wish, const ScaleInput& input, RunOutcome&
 void WholeRun::open() {
   const Preset& preset = choose_preset(settings_.preset);
   check_live(settings_, preset);
-  if (settings_.normals.empty()) choose_normals_source();
+  if (settings_.normals.empty()) choose_normals_source(preset);
   parameters_ = set_parameters(preset, settings_.set);
   scale_ = parse_scale(settings_.scale);
   if (!settings_.map.empty()) known_ = load_run_map(settings_.map);
@@ -102,9 +102,8 @@ void WholeRun::open() {
   if (!interrupt_) interrupt_.emplace();
 }
 
-void WholeRun::choose_normals_source() {
-  const DefaultNormals chosen =
-      default_normals(find_shipped_model(), choose_preset(settings_.preset).use_normals);
+void WholeRun::choose_normals_source(const Preset& preset) {
+  const DefaultNormals chosen = default_normals(find_shipped_model(), preset.use_normals);
   // The dense model looks at the normals of every keyframe.
   settings_.normals = settings_.dense ? source_of_normals(chosen.source) : chosen.source;
   if (!chosen.note.empty()) print_note(chosen.note);

@@ -34,7 +34,7 @@ class WholeRun {
   void write();
 
  private:
-  void choose_normals_source();
+  void choose_normals_source(const Preset& preset);
   void open_images();
   void open_output();
   [[nodiscard]] Settings system_settings() const;

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "sslam/core/parameter_table.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/opencv/normals/onnx_normals.hpp"
 
 namespace sslam::python {
@@ -19,9 +20,8 @@ namespace sslam::python {
   const double sx = static_cast<double>(map.cols) / camera.width,
                sy = static_cast<double>(map.rows) / camera.height;
   if (std::abs(sx / sy - 1) > 0.02) return NormalStatus::kWrongSize;
-  const Pinhole<double>& p = camera.pinhole;
   DenseNormals dense;
-  dense.pinhole = {p.fx * sx, p.fy * sy, (p.cx + 0.5) * sx - 0.5, (p.cy + 0.5) * sy - 0.5};
+  dense.pinhole = resized(camera.pinhole, sx, sy);
   dense.normal.create(map.size());
   const int channels = map.channels();
   if (channels == 4) dense.planar.create(map.size());

@@ -67,22 +67,16 @@ inline FisheyeRoom render_fisheye_room(const WideLens& lens, double widest,
     }
   FisheyeRoom room;
   room.lens = lens;
-  const synth::House house = synth::build_house(options);
-  synth::Renderer renderer(house.scene);
-  const synth::Sensor sensor({}, options.seed);
-  synth::RenderedFrame frame;
-  std::vector<std::uint8_t> rgb;
+  HouseFilm film(options);
   for (int i = 0; i < frames; ++i) {
     const double stamp = i / room.rate;
-    const SE3<double> world_from_cam = house.path.world_from_cam(stamp);
+    const SE3<double> world_from_cam = film.world_from_cam(stamp);
     cv::Mat image(lens.height, lens.width, CV_8UC3, cv::Scalar(0, 0, 0));
     for (std::size_t f = 0; f < turns.size(); ++f) {
       const SE3<double> world_from_face{world_from_cam.rotation * turns[f], world_from_cam.translation};
-      renderer.render({pinhole, kFace, kFace, world_from_face.inverse()}, frame);
-      sensor.expose(frame, i, stamp, rgb);
-      cv::Mat face, taken;
-      cv::cvtColor(cv::Mat(kFace, kFace, CV_8UC3, rgb.data()), face, cv::COLOR_RGB2BGR);
-      cv::remap(face, taken, maps[f], cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+      cv::Mat taken;
+      cv::remap(film.take({pinhole, kFace, kFace, world_from_face.inverse()}, i, stamp), taken, maps[f],
+                cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
       taken.copyTo(image, chosen[f]);
     }
     room.images.push_back(std::move(image));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
@@ -23,30 +24,46 @@ struct RenderedRoom {
   io::Trajectory truth;
 };
 
+// Takes images in a house that is rendered.
+class HouseFilm {
+ public:
+  explicit HouseFilm(const synth::HouseOptions& options)
+      : house_(synth::build_house(options)), renderer_(house_.scene), sensor_({}, options.seed) {}
+
+  [[nodiscard]] SE3<double> world_from_cam(double stamp) const { return house_.path.world_from_cam(stamp); }
+
+  // BGR, of frame `i`.
+  [[nodiscard]] cv::Mat take(const synth::View& view, int i, double stamp) {
+    renderer_.render(view, frame_);
+    sensor_.expose(frame_, i, stamp, rgb_);
+    cv::Mat bgr;
+    cv::cvtColor(cv::Mat(frame_.height, frame_.width, CV_8UC3, rgb_.data()), bgr, cv::COLOR_RGB2BGR);
+    return bgr;
+  }
+  // What the last image was rendered from.
+  [[nodiscard]] const synth::RenderedFrame& frame() const { return frame_; }
+
+ private:
+  synth::House house_;
+  synth::Renderer renderer_;
+  synth::Sensor sensor_;
+  synth::RenderedFrame frame_;
+  std::vector<std::uint8_t> rgb_;
+};
+
 // The first `frames` images of 320 x 240 of the house.
 inline RenderedRoom render_room(const synth::HouseOptions& options, int frames) {
   RenderedRoom room;
   room.camera.pinhole = {280, 280, 159.5, 119.5};
   room.camera.width = 320;
   room.camera.height = 240;
-  const synth::House house = synth::build_house(options);
-  synth::Renderer renderer(house.scene);
-  const synth::Sensor sensor({}, options.seed);
-  synth::RenderedFrame frame;
-  std::vector<std::uint8_t> rgb;
+  HouseFilm film(options);
   for (int i = 0; i < frames; ++i) {
     const double stamp = i / room.rate;
-    const SE3<double> world_from_cam = house.path.world_from_cam(stamp);
-    renderer.render({room.camera.pinhole, room.camera.width, room.camera.height, world_from_cam.inverse()},
-                    frame);
-    sensor.expose(frame, i, stamp, rgb);
-    cv::Mat bgr(frame.height, frame.width, CV_8UC3);
-    for (std::size_t k = 0; k < rgb.size(); k += 3) {
-      bgr.data[k] = rgb[k + 2];
-      bgr.data[k + 1] = rgb[k + 1];
-      bgr.data[k + 2] = rgb[k];
-    }
-    room.images.push_back(std::move(bgr));
+    const SE3<double> world_from_cam = film.world_from_cam(stamp);
+    room.images.push_back(film.take(
+        {room.camera.pinhole, room.camera.width, room.camera.height, world_from_cam.inverse()}, i, stamp));
+    const synth::RenderedFrame& frame = film.frame();
     cv::Mat depth(frame.height, frame.width, CV_32F);
     for (std::size_t k = 0; k < frame.inverse_depth.size(); ++k)
       depth.ptr<float>()[k] = frame.inverse_depth[k] > 0 ? 1 / frame.inverse_depth[k] : 0;

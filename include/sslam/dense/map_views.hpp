@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sslam/dense/dense_view.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/map/landmark_precision.hpp"
 
 namespace sslam::dense {
@@ -60,8 +61,7 @@ inline void add_line_marks(const Map<double>& map, const Keyframe<double>& kf, d
   constexpr double kSpacing = 6;  // of the marks on a line, pixels
   DenseView view;
   view.cam_from_world = kf.cam_from_world;
-  const Pinhole<double>& k = kf.frame.pinhole;
-  view.pinhole = {k.fx * scale, k.fy * scale, (k.cx + 0.5) * scale - 0.5, (k.cy + 0.5) * scale - 0.5};
+  view.pinhole = resized(kf.frame.pinhole, scale, scale);
   detail::add_point_marks(map, kf, scale, view.marks);
   detail::add_line_marks(map, kf, scale, kSpacing, view.marks);
   return view;

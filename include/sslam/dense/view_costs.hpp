@@ -111,7 +111,7 @@ class ViewCosts {
                               std::min(1.0, (1 - cosine) / (1 - std::cos(options_.normal_angle))));
   }
 
-  // A landmark speaks for the planes at its depth, in the block where it is seen.
+  // In the block where a landmark is seen, planes that are not at its depth cost more.
   void add_marks(const DenseView& view, CostGrid& grid) const {
     constexpr double kOffPlanes = 0.15;  // cost of a landmark that is on none of the planes
     std::vector<std::vector<const DepthMark*>> marks(static_cast<std::size_t>(grid.columns * grid.rows));

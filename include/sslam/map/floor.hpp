@@ -10,6 +10,7 @@
 #include "sslam/core/random.hpp"
 #include "sslam/map/depth_ratios.hpp"
 #include "sslam/map/map.hpp"
+#include "sslam/map/vertical.hpp"
 
 namespace sslam {
 
@@ -54,22 +55,11 @@ struct Floor {
 namespace floor_detail {
 
 template <Scalar S>
-struct Views {
+[[nodiscard]] std::vector<Vec3<S>> gather_centres(const Map<S>& map) {
   std::vector<Vec3<S>> centres;
-  Vec3<S> down = Vec3<S>::Zero();  // mean of the cameras' y axes: shorter the more these differ
-};
-
-template <Scalar S>
-[[nodiscard]] Views<S> gather_views(const Map<S>& map) {
-  Views<S> views;
-  for (const Keyframe<S>& kf : map.keyframes) {
-    if (!kf.alive()) continue;
-    const SE3<S> world_from_cam = kf.cam_from_world.inverse();
-    views.centres.push_back(world_from_cam.translation);
-    views.down += world_from_cam.rotation * Vec3<S>(0, 1, 0);
-  }
-  if (!views.centres.empty()) views.down /= static_cast<S>(views.centres.size());
-  return views;
+  for (const Keyframe<S>& kf : map.keyframes)
+    if (kf.alive()) centres.push_back(kf.cam_from_world.inverse().translation);
+  return centres;
 }
 
 // Points, and both ends of lines.
@@ -94,28 +84,13 @@ template <Scalar S>
   return median<S>(heights);
 }
 
-// The Manhattan axis that is nearest to `down`, pointing the same way; zero where none is near.
-template <Scalar S>
-[[nodiscard]] Vec3<S> vertical_axis(const Map<S>& map, const Vec3<S>& down, S max_lean) {
-  Vec3<S> best = Vec3<S>::Zero();
-  S most = std::cos(max_lean);
-  for (const SO3<S>& frame : map.world_from_manhattan)
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3<S> direction = frame.matrix().col(axis);
-      const S cosine = direction.dot(down);
-      if (std::abs(cosine) <= most) continue;
-      most = std::abs(cosine);
-      best = cosine > 0 ? direction : Vec3<S>(-direction);
-    }
-  return best;
-}
-
 // The normal of the plane through three places below the cameras that most others lie on, of those near to
 // `down`; `down` itself where there is none.
 template <Scalar S>
-[[nodiscard]] Vec3<S> vertical_of_places(const std::vector<Vec3<S>>& places, const Views<S>& views,
-                                         const Vec3<S>& down, const FloorOptions<S>& options) {
-  const S eye = median_along(views.centres, down);
+[[nodiscard]] Vec3<S> vertical_of_places(const std::vector<Vec3<S>>& places,
+                                         const std::vector<Vec3<S>>& centres, const Vec3<S>& down,
+                                         const FloorOptions<S>& options) {
+  const S eye = median_along(centres, down);
   std::vector<Vec3<S>> below;
   for (const Vec3<S>& place : places)
     if (down.dot(place) > eye) below.push_back(place);
@@ -129,7 +104,7 @@ template <Scalar S>
     Vec3<S> normal = (b - a).cross(c - a).normalized();
     if (normal.dot(down) < 0) normal = -normal;
     if (!(normal.dot(down) > std::cos(options.max_lean))) continue;
-    const S layer = options.thickness * (normal.dot(a) - median_along(views.centres, normal));
+    const S layer = options.thickness * (normal.dot(a) - median_along(centres, normal));
     const std::ptrdiff_t support = std::count_if(
         below.begin(), below.end(), [&](const Vec3<S>& x) { return std::abs(normal.dot(x - a)) <= layer; });
     if (support <= most) continue;
@@ -177,16 +152,17 @@ template <Scalar S>
 [[nodiscard]] Floor<S> find_floor(const Map<S>& map, const FloorOptions<S>& options = {}) {
   namespace detail = floor_detail;
   Floor<S> floor;
-  detail::Views<S> views = detail::gather_views(map);
-  if (views.centres.empty() || !(views.down.norm() > std::cos(options.max_lean))) {
+  const std::vector<Vec3<S>> centres = detail::gather_centres(map);
+  const Vec3<S> cameras_down = mean_down(map);
+  if (centres.empty() || !(cameras_down.norm() > std::cos(options.max_lean))) {
     floor.status = FloorStatus::kNoVertical;
     return floor;
   }
   const std::vector<Vec3<S>> places = detail::gather_places(map);
-  const Vec3<S> mean = views.down.normalized();
-  Vec3<S> down = detail::vertical_axis(map, mean, options.max_lean);
-  if (down.isZero()) down = detail::vertical_of_places(places, views, mean, options);
-  const S eye = detail::median_along(views.centres, down);
+  const Vec3<S> mean = cameras_down.normalized();
+  Vec3<S> down = vertical_axis<S>(map.world_from_manhattan, mean, options.max_lean);
+  if (down.isZero()) down = detail::vertical_of_places(places, centres, mean, options);
+  const S eye = detail::median_along(centres, down);
   std::vector<S> depths;
   for (const Vec3<S>& place : places)
     if (const S depth = down.dot(place) - eye; depth > 0) depths.push_back(depth);
@@ -195,7 +171,7 @@ template <Scalar S>
   if (last == first) return floor;
   const S level = eye + depths[first + (last - first) / 2];
   std::vector<S> heights;
-  for (const Vec3<S>& centre : views.centres)
+  for (const Vec3<S>& centre : centres)
     if (const S height = level - down.dot(centre); height > 0) heights.push_back(height);
   const CommonRatio<S> common = common_ratio<S>(heights);
   floor.status = FloorStatus::kFound;

@@ -94,7 +94,7 @@ void BasicSystem<Frontend>::keep_normal_picture(Extraction& out) const {
       out.report.normals == NormalStatus::kOk || out.report.normals == NormalStatus::kNoEvidence;
   if (!settings_.keep_pictures || !seen) return;
   out.normal_picture = frontend_->normals.small_picture();
-  out.normal_pinhole = frontend_->normals.small_pinhole(camera_);
+  out.normal_pinhole = frontend_->normals.small_pinhole(camera_, out.normal_picture.size());
 }
 
 // Normals that the frame has already, of the caller's own say, stay.

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "sslam/core/parameter_table.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"
 #include "sslam/opencv/normals/file_normals.hpp"
 #include "sslam/opencv/normals/no_normals.hpp"
@@ -51,17 +52,13 @@ struct NormalChoice {
     return {};
   }
 
-  // Of its pixels; `camera` is that of the images. Where the source works on the lens's own pixels, its
-  // distortion is left out of account.
-  [[nodiscard]] Pinhole<double> small_pinhole(const Camera<double>& camera) const {
-    const cv::Mat picture = small_picture();
+  // Of the pixels of that picture, of this size; `camera` is that of the images. Where the source works on
+  // the lens's own pixels, its distortion is left out of account.
+  [[nodiscard]] Pinhole<double> small_pinhole(const Camera<double>& camera, cv::Size picture) const {
     if (const auto* network = std::get_if<OnnxNormals>(&source))
       if (network->manifest().kind == NetworkOutput::kNormals)
         return sampled_pinhole(network->dense(), kColumns);
-    const double x = static_cast<double>(picture.cols) / camera.width,
-                 y = static_cast<double>(picture.rows) / camera.height;
-    const Pinhole<double>& k = camera.pinhole;
-    return {k.fx * x, k.fy * y, (k.cx + 0.5) * x - 0.5, (k.cy + 0.5) * y - 0.5};
+    return resized(camera, picture.width, picture.height).pinhole;
   }
 };
 static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);

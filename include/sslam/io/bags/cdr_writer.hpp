@@ -21,7 +21,8 @@ namespace sslam::io {
 [[nodiscard]] inline std::int64_t message_time(double seconds) {
   constexpr double kLast = 2147483647;
   if (!(seconds >= 0 && seconds <= kLast))
-    throw Error("the stamp " + std::to_string(seconds) + " is none of ROS: 0 to 2147483647 s");
+    throw Error("the stamp " + std::to_string(seconds) +
+                " does not fit a ROS message: expected 0 to 2147483647 s");
   return static_cast<std::int64_t>(static_cast<long double>(seconds) * 1e9L + 0.5L);
 }
 

@@ -31,7 +31,7 @@ template <class T>
   return value;
 }
 
-// Fields `name=value`, each with its length in front. Empty: there is none of this name.
+// Fields `name=value`, each with its length in front. Empty: no field has this name.
 [[nodiscard]] inline std::string_view field_of(std::string_view header, std::string_view name) noexcept {
   while (header.size() >= 4) {
     const auto length = number_of<std::uint32_t>(header);

@@ -86,8 +86,8 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   return text;
 }
 
-// path: a folder in one of the layouts, a glob of images, a video, or a bag. Throws Error when it is none of
-// them.
+// path: a folder in one of the layouts, a glob of images, a video, or a bag. Throws Error for anything
+// else.
 [[nodiscard]] inline Dataset open_dataset(const std::filesystem::path& path,
                                           const OpenOptions& options = {}) {
   std::error_code ignored;

@@ -57,7 +57,7 @@ enum class LensModel {
   return LensModel::kOther;
 }
 
-// How many numbers Kalibr's wide models have before fx: xi; xi, alpha; alpha, beta. 0: it is none of them.
+// How many numbers Kalibr's wide models have before fx: xi; xi, alpha; alpha, beta. 0: another model.
 [[nodiscard]] constexpr std::size_t count_before_focal(LensModel model) noexcept {
   if (model == LensModel::kOmni) return 1;
   return model == LensModel::kDoubleSphere || model == LensModel::kUnified ? 2 : 0;

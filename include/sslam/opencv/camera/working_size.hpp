@@ -8,28 +8,21 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sslam/geometry/camera.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/opencv/image_input.hpp"
 
 namespace sslam {
 
 // The camera whose images are those of `camera`, shrunk so that neither side is longer than `longest` pixels;
-// the camera itself where they are not, or where `longest` is 0. Pixel (0, 0) is the middle of the first
-// pixel.
+// the camera itself where they are not, or where `longest` is 0.
 [[nodiscard]] inline Camera<double> shrunk_camera(const Camera<double>& camera, int longest) {
   const int side = std::max(camera.width, camera.height);
   if (longest <= 0 || side <= longest) return camera;
   const double share = static_cast<double>(longest) / side;
-  Camera<double> small = camera;
-  small.width = std::max(1, static_cast<int>(std::lround(camera.width * share)));
-  small.height = std::max(1, static_cast<int>(std::lround(camera.height * share)));
-  const double sx = static_cast<double>(small.width) / camera.width;
-  const double sy = static_cast<double>(small.height) / camera.height;
-  small.pinhole.fx *= sx;
-  small.pinhole.fy *= sy;
-  small.pinhole.cx = (camera.pinhole.cx + 0.5) * sx - 0.5;
-  small.pinhole.cy = (camera.pinhole.cy + 0.5) * sy - 0.5;
-  return small;
+  const auto shrunk = [share](int length) {
+    return std::max(1, static_cast<int>(std::lround(length * share)));
+  };
+  return resized(camera, shrunk(camera.width), shrunk(camera.height));
 }
 
 // The image, and what is registered to it, in the size of that camera.

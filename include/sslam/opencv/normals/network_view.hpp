@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sslam/geometry/camera.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/opencv/normals/normal_manifest.hpp"
 
 namespace sslam {
@@ -24,10 +24,9 @@ class NetworkView {
     const Pinhole<double>& p = camera.pinhole;
     const double sx = static_cast<double>(input.width) / camera.width,
                  sy = static_cast<double>(input.height) / camera.height;
-    pinhole_ =
-        input.focal > 0
-            ? Pinhole<double>{input.focal, input.focal, 0.5 * (input.width - 1), 0.5 * (input.height - 1)}
-            : Pinhole<double>{p.fx * sx, p.fy * sy, (p.cx + 0.5) * sx - 0.5, (p.cy + 0.5) * sy - 0.5};
+    pinhole_ = input.focal > 0 ? Pinhole<double>{input.focal, input.focal, 0.5 * (input.width - 1),
+                                                 0.5 * (input.height - 1)}
+                               : resized(p, sx, sy);
     // Whole-number reduction by averaging first, so that the bilinear sampling of the maps does not alias.
     const double shrink = std::min(p.fx / pinhole_.fx, p.fy / pinhole_.fy);
     const int factor = std::max(1, static_cast<int>(shrink));

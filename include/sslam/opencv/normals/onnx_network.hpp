@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sslam/core/sha256.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/opencv/normals/network_view.hpp"
 #include "sslam/opencv/normals/normal_manifest.hpp"
 #include "sslam/opencv/normals/normal_source.hpp"
@@ -65,8 +66,7 @@ class OnnxNetwork {
   [[nodiscard]] Pinhole<double> output_pinhole() const {
     const double sx = static_cast<double>(channel(0).cols) / manifest_.input.width,
                  sy = static_cast<double>(channel(0).rows) / manifest_.input.height;
-    const Pinhole<double>& p = view_.pinhole();
-    return {p.fx * sx, p.fy * sy, (p.cx + 0.5) * sx - 0.5, (p.cy + 0.5) * sy - 0.5};
+    return resized(view_.pinhole(), sx, sy);
   }
   // Whether an output's pixel shows something that the camera sees.
   [[nodiscard]] bool inside(int u, int v) const {

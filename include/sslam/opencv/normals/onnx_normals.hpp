@@ -11,6 +11,7 @@
 #include <string>
 
 #include "sslam/core/parameter.hpp"
+#include "sslam/geometry/resized_camera.hpp"
 #include "sslam/opencv/normals/depth_normals.hpp"
 #include "sslam/opencv/normals/normal_evidence.hpp"
 #include "sslam/opencv/normals/normal_manifest.hpp"
@@ -177,12 +178,9 @@ class OnnxNormals {
     cv::resize(output * manifest().depth_scale, depth.depth, {}, factor, factor, cv::INTER_LINEAR);
     if (manifest().kind == NetworkOutput::kInverseDepth) depth.depth = 1.0 / depth.depth;
     depth.depth.setTo(0, depth.depth != depth.depth);  // NaN: no measurement
-    const Pinhole<double> p = network_.output_pinhole();
+    const double enlarged = factor;
     const Camera<double> seen{
-        {p.fx * factor, p.fy * factor, (p.cx + 0.5) * factor - 0.5, (p.cy + 0.5) * factor - 0.5},
-        {},
-        depth.depth.cols,
-        depth.depth.rows};
+        resized(network_.output_pinhole(), enlarged, enlarged), {}, depth.depth.cols, depth.depth.rows};
     depth_.options = options.depth;
     const NormalStatus answer = depth_.fill(depth, seen, field);
     report_.evidence.enough = field.size() > 0;
