@@ -44,6 +44,7 @@
 #include "sslam/geometry/sim3.hpp"
 #include "sslam/geometry/so3.hpp"
 #include "sslam/geometry/sphere.hpp"
+#include "sslam/geometry/spread.hpp"
 #include "sslam/image/brief_tests.hpp"
 #include "sslam/image/corner_refiner.hpp"
 #include "sslam/image/corner_spreader.hpp"

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "sslam/geometry/spread.hpp"
 #include "sslam/manhattan/line_circles.hpp"
 #include "sslam/manhattan/normal_modes.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
@@ -148,9 +148,7 @@ class FrameRefiner {
       count += round_.count[k];
     }
     if (count > S(0)) estimate.line_rms = std::sqrt(squared / count);
-    Eigen::SelfAdjointEigenSolver<Mat3<S>> solver;
-    solver.computeDirect(votes_.H, Eigen::EigenvaluesOnly);
-    const S least = std::max(solver.eigenvalues()[0], S(0));
+    const S least = std::max(symmetric_eigenvalues<S>(votes_.H).x(), S(0));
     estimate.deviation = S(1) / std::sqrt(std::max(least, S(0.1)));
     estimate.log_likelihood = round_.log_likelihood;
     estimate.status = !certain || estimate.axes_seen == 0                              ? Status::kNoConsensus

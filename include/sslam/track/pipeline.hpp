@@ -147,7 +147,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   void settle(const PoseEstimate<S>& estimate, bool tracked, TrackResult<S>& result) {
     TrackedFrame<S>& frame = frames_.current();
     Map<S>& map = world_.map;
-    trial.weigh(frame, step_);
+    trial.weigh(frame, result.structure, step_);
     if (!localise_only && trial.refutes(map)) return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;

@@ -24,8 +24,8 @@ Map<double> map_of(std::size_t keyframes) {
 
 constexpr double kStep = 1.0 / 30;  // seconds between frames
 
-void weigh(MapTrial<double>& trial, int frames, double degrees) {
-  for (int i = 0; i < frames; ++i) trial.weigh(tracked(degrees), kStep);
+void weigh(MapTrial<double>& trial, int frames, double degrees, bool held = true) {
+  for (int i = 0; i < frames; ++i) trial.weigh(tracked(degrees), held, kStep);
 }
 
 }  // namespace
@@ -57,6 +57,30 @@ TEST_CASE("A map is not given up for fewer inconsistent frames than that, or for
     weigh(trial, 14, 8);
     CHECK_FALSE(trial.refutes(map));
     weigh(trial, 1, 1);
+  }
+}
+
+TEST_CASE("A young map that most frames show loose from the Manhattan frame is given up") {
+  MapTrial<double> trial;
+  weigh(trial, 14, 2, false);
+  CHECK_FALSE(trial.refutes(map_of(3)));
+  weigh(trial, 1, 2, false);
+  CHECK(trial.refutes(map_of(3)));
+  CHECK_FALSE(trial.refutes(map_of(10)));  // it has stood the test of time
+  trial.begin_again();
+  weigh(trial, 29, 2, false);
+  CHECK_FALSE(trial.refutes(map_of(3)));
+  weigh(trial, 1, 2, false);
+  CHECK(trial.refutes(map_of(3)));
+}
+
+TEST_CASE("A young map of whose frames a third and more are held by the Manhattan frame stays") {
+  const Map<double> map = map_of(3);
+  MapTrial<double> trial;
+  for (int i = 0; i < 20; ++i) {
+    weigh(trial, 8, 2, true);
+    weigh(trial, 14, 2, false);
+    CHECK_FALSE(trial.refutes(map));
   }
 }
 

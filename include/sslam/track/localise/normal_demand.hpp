@@ -3,10 +3,8 @@
 // measured, never by time, so that the same images are asked about in every run.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
-
 #include "sslam/core/parameter.hpp"
+#include "sslam/geometry/spread.hpp"
 #include "sslam/track/contract/normal_need.hpp"
 #include "sslam/track/contract/rotation_answer.hpp"
 
@@ -45,9 +43,7 @@ class NormalDemand {
   [[nodiscard]] NormalNeed need(const RotationAnswer<S>& by_lines) const {
     if (!by_lines.seen) return NormalNeed::kNoAxis;
     if (by_lines.axes_seen < 2) return NormalNeed::kAxisOpen;
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(by_lines.seen->rotation.covariance,
-                                                       Eigen::EigenvaluesOnly);
-    const bool sure = std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
+    const bool sure = largest_sigma<S>(by_lines.seen->rotation.covariance) < options.max_sigma;
     return sure ? NormalNeed::kNotNeeded : NormalNeed::kUncertain;
   }
 };

@@ -3,9 +3,8 @@
 // the Manhattan rotation takes part as one more observation, weighed by its own covariance.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-
 #include "sslam/core/parameter.hpp"
+#include "sslam/geometry/spread.hpp"
 #include "sslam/map/local_map.hpp"
 #include "sslam/track/localise/translation.hpp"
 
@@ -58,8 +57,8 @@ class LocalMapRefinement {
 
  private:
   [[nodiscard]] bool gives_rotation(const RotationPrior<S>& prior) const noexcept {
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(prior.information, Eigen::EigenvaluesOnly);
-    return eigen.eigenvalues().x() * options.turned_sigma * options.turned_sigma >= S(1);
+    return symmetric_eigenvalues<S>(prior.information).x() * options.turned_sigma * options.turned_sigma >=
+           S(1);
   }
 
   // `visible` becomes those that are matched.

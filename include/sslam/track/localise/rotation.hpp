@@ -2,12 +2,11 @@
 // The rotation stage: where the Manhattan frame is seen, it gives each frame's rotation without drift.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
+#include "sslam/geometry/spread.hpp"
 #include "sslam/manhattan/rotation.hpp"
 #include "sslam/manhattan/search.hpp"
 #include "sslam/track/contract/concepts.hpp"
@@ -117,8 +116,7 @@ class ManhattanRotation {
     rotation.cam_from_world = estimate_.cam_from_manhattan * world_from_manhattan.inverse();
     rotation.covariance =
         estimate_.covariance + options.squareness * options.squareness * Mat3<S>::Identity();
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(rotation.covariance, Eigen::EigenvaluesOnly);
-    const bool certain = std::sqrt(eigen.eigenvalues().z()) < options.max_sigma;
+    const bool certain = largest_sigma<S>(rotation.covariance) < options.max_sigma;
     return {{{rotation, certain, index}}, estimate_.axes_seen, line_axes_, discovered_, normal_axes()};
   }
 

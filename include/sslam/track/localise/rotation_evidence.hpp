@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "sslam/core/median.hpp"
 #include "sslam/core/parameter.hpp"
+#include "sslam/geometry/spread.hpp"
 #include "sslam/map/keyframe.hpp"
 #include "sslam/solver/pose/rotation_prior.hpp"
 
@@ -77,8 +77,7 @@ class RotationEvidence {
 
   // Whether the rotation is so exact that it may be held while the translation is solved.
   [[nodiscard]] bool rigid(const RotationObservation<S>& seen) const {
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(seen.covariance, Eigen::EigenvaluesOnly);
-    return eigen.eigenvalues().z() < options.max_rigid * options.max_rigid;
+    return largest_sigma<S>(seen.covariance) < options.max_rigid;
   }
 
   // Whether a solved rotation has kept to the evidence: a frame where it has is held by structure.

@@ -2,11 +2,8 @@
 // What a solved pose must show before it is believed.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-
 #include "sslam/core/parameter.hpp"
+#include "sslam/geometry/spread.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
 #include "sslam/track/contract/pose_estimate.hpp"
 #include "sslam/track/matching/correspondences.hpp"
@@ -47,11 +44,7 @@ template <Scalar S, int D>
   estimate.reason = Reason::kUncertainPose;
   Mat<S, D, D> covariance;
   if (!inverse_of<S, D>(information, covariance)) return estimate;
-  const auto spread = [&](int at) {
-    const Mat3<S> block = covariance.template block<3, 3>(at, at);
-    const Eigen::SelfAdjointEigenSolver<Mat3<S>> eigen(block, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(S(0), eigen.eigenvalues().z()));
-  };
+  const auto spread = [&](int at) { return largest_sigma<S>(covariance.template block<3, 3>(at, at)); };
   if (!(spread(D - 3) < acceptance.max_position_sigma * matches.median_depth(cam_from_world)))
     return estimate;
   if (D == 6 && !(spread(0) < acceptance.max_rotation_sigma)) return estimate;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map on trial: what speaks against it is a loss of track while it is young, and poses inconsistent to
-// the Manhattan frame.
+// the Manhattan frame. A first Manhattan frame is on trial with the map that was begun by it.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -64,14 +64,16 @@ class MapTrial {
     unfit_ = 0;
   }
 
-  // A frame has a pose, so many seconds after the frame before it. A first map whose depths are wrong, as two
-  // views of a flat scene can leave it, turns the camera as it moves; the Manhattan frame does not turn
-  // along.
-  void weigh(const TrackedFrame<S>& frame, double seconds) {
+  // A frame has a pose, so many seconds after the frame before it; `held`: within the error that its
+  // Manhattan rotation claims. A first map whose depths are wrong, as two views of a flat scene can leave it,
+  // turns the camera as it moves; the Manhattan frame does not turn along. A wrong Manhattan frame gives a
+  // first map a wrong turn between its two views, and the poses that follow are held by neither.
+  void weigh(const TrackedFrame<S>& frame, bool held, double seconds) {
     if (!frame.manhattan) return;
     const bool against = contradicts(frame);
     inconsistent_ = against ? inconsistent_ + seconds : 0;
     square_ += against ? 0 : seconds;
+    (held ? held_ : loose_) += seconds;
   }
   [[nodiscard]] bool contradicts(const TrackedFrame<S>& frame) const {
     if (!frame.manhattan) return false;
@@ -81,10 +83,10 @@ class MapTrial {
            turn.dot(frame.manhattan->covariance.llt().solve(turn)) > options.max_sigmas * options.max_sigmas;
   }
 
-  // A young map that a loss speaks against, or one with more frames inconsistent to the Manhattan frame, in a
-  // row, than it has ever had square to it.
+  // A young map that a loss speaks against, or one of whose frames most are not held by the Manhattan frame;
+  // or a map with more frames inconsistent to it, in a row, than it has ever had square to it.
   [[nodiscard]] bool refutes(const Map<S>& map) const noexcept {
-    return !given_ && (lost_young(map) || reaches(inconsistent_, patience()));
+    return !given_ && (lost_young(map) || (young(map) && stands_loose()) || stands_inconsistent());
   }
   // Whether that may still come to pass soon. Where no Manhattan frame is seen, nothing can be inconsistent
   // to it.
@@ -100,17 +102,23 @@ class MapTrial {
   // Another map begins. Where one after the other is inconsistent, the world is not as square as it looks:
   // each of them is given twice the time.
   void begin_again() noexcept {
-    if (reaches(inconsistent_, patience())) ++given_up_;
+    if (stands_inconsistent() || stands_loose()) ++given_up_;
     end_loss();
-    inconsistent_ = square_ = 0;
+    inconsistent_ = square_ = held_ = loose_ = 0;
   }
 
  private:
   [[nodiscard]] bool lost_young(const Map<S>& map) const noexcept {
     return reaches(unfit_, options.give_up_after) && young(map);
   }
+  [[nodiscard]] bool stands_inconsistent() const noexcept {
+    return reaches(inconsistent_, std::max(patience(), square_));
+  }
+  [[nodiscard]] bool stands_loose() const noexcept {
+    return reaches(loose_, std::max(patience(), 2 * held_));
+  }
   [[nodiscard]] double patience() const noexcept {
-    return std::max(std::ldexp(options.give_up_after, std::min(given_up_, 16)), square_);
+    return std::ldexp(options.give_up_after, std::min(given_up_, 16));
   }
   // Stamps are exact to a millisecond at best.
   [[nodiscard]] static bool reaches(double seconds, double limit) noexcept { return seconds >= limit - 1e-3; }
@@ -119,6 +127,8 @@ class MapTrial {
   double unfit_ = 0;         // lost ones in a row that showed enough to be recognised
   double inconsistent_ = 0;  // tracked ones in a row that contradict the Manhattan frame
   double square_ = 0;        // tracked ones of this map that agree with it
+  double held_ = 0;          // tracked ones of this map within the error that their Manhattan rotation claims
+  double loose_ = 0;         // those beyond it
   int given_up_ = 0;         // maps, for being inconsistent
   bool lost_ = false;
   bool given_ = false;
