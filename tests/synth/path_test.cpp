@@ -74,3 +74,43 @@ TEST_CASE("a pivot turns before it moves") {
   CHECK((a.translation - b.translation).norm() < 1e-3);
   CHECK(degrees(angle_between(a.rotation, b.rotation)) > 10.0);
 }
+
+TEST_CASE("who stands first walks the same way later") {
+  Random random(4), again(4);
+  PathOptions options;
+  options.tremor = 0.0;
+  const ClosedPath walk(route_of(0, random), options, 2);
+  options.stand = 2.0;
+  const ClosedPath stand(route_of(0, again), options, 2);
+  for (const double t : {0.0, 0.7, 2.0})
+    CHECK((stand.world_from_cam(t).translation - walk.world_from_cam(0.0).translation).norm() < 1e-9);
+  CHECK((stand.world_from_cam(2.2).translation - walk.world_from_cam(0.0).translation).norm() > 1e-3);
+  for (const double t : {1.0, 5.0}) {  // half a second is lost by starting
+    const SE3<double> a = walk.world_from_cam(t), b = stand.world_from_cam(t + 2.5);
+    CHECK((a.translation - b.translation).norm() < 1e-9);
+    CHECK(angle_between(a.rotation, b.rotation) < 1e-9);
+  }
+  CHECK(std::abs(stand.first_lap_seconds() - walk.first_lap_seconds() - 2.5) < 1e-9);
+}
+
+TEST_CASE("a shake turns the camera quickly and leads nowhere") {
+  Random random(4), again(4);
+  PathOptions options;
+  const ClosedPath calm(route_of(0, random), options, 2);
+  options.shake = 1.0;
+  const ClosedPath shaken(route_of(0, again), options, 2);
+  double squares = 0.0, fastest = 0.0;
+  SO3<double> before;
+  constexpr int kSteps = 900;
+  for (int i = 0; i < kSteps; ++i) {
+    const SE3<double> a = calm.world_from_cam(i / 90.0), b = shaken.world_from_cam(i / 90.0);
+    CHECK((a.translation - b.translation).norm() < 0.004);
+    const SO3<double> shake = b.rotation * a.rotation.inverse();
+    squares += std::pow(degrees(angle_between(a.rotation, b.rotation)), 2);
+    if (i > 0) fastest = std::max(fastest, degrees(angle_between(shake, before)) * 90.0);
+    before = shake;
+  }
+  const double rms = std::sqrt(squares / kSteps);
+  CHECK((rms > 0.08 && rms < 0.3));
+  CHECK((fastest > 4.0 && fastest < 30.0));  // degrees per second
+}

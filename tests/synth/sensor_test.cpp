@@ -59,3 +59,23 @@ TEST_CASE("exposure steps within its bounds") {
   CHECK(highest <= 154);
   CHECK(highest - lowest > 25);
 }
+
+TEST_CASE("exposure and white balance wander slowly within their bounds") {
+  SensorOptions options;
+  options.noise = options.vignetting = 0.0f;
+  options.exposure_drift = 0.2f;
+  options.white_balance_drift = 0.1f;
+  const Sensor sensor(options, 3);
+  std::vector<double> green, warmth;
+  for (int i = 0; i < 400; ++i) {
+    const std::vector<std::uint8_t> image = expose(sensor, i, i * 0.2);
+    green.push_back(image[1]);
+    warmth.push_back(static_cast<double>(image[0]) / image[1]);
+    CHECK(std::abs(image[0] + image[2] - 2.0 * image[1]) <= 2.0);  // red gains what blue loses
+  }
+  const auto [darkest, brightest] = std::minmax_element(green.begin(), green.end());
+  CHECK((*darkest >= 101 && *brightest <= 154 && *brightest - *darkest > 20));
+  const auto [coldest, warmest] = std::minmax_element(warmth.begin(), warmth.end());
+  CHECK((*coldest > 0.885 && *warmest < 1.115 && *warmest - *coldest > 0.05));
+  for (std::size_t i = 1; i < green.size(); ++i) CHECK(std::abs(green[i] - green[i - 1]) < 6);
+}

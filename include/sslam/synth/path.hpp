@@ -14,6 +14,8 @@
 
 namespace sslam::synth {
 
+inline constexpr double kTurn = 2.0 * std::numbers::pi;
+
 // World: z up. Yaw turns about z from the x axis, pitch looks up; radians.
 struct RoutePoint {
   Vec3<double> position;
@@ -31,11 +33,14 @@ struct PathOptions {
   double max_rate_deg = 35.0;  // degrees per second of yaw and pitch, before the tremor
   double tremor = 1.0;         // 1: about 4 mm and 0.2 degrees
   double knot_seconds = 0.4;   // spacing of the spline's knots
+  double shake = 0.0;          // faster than the tremor; 1: about 0.5 mm and 0.1 degrees at 4 to 9 Hz
+  double stand = 0.0;          // seconds of standing before the first step
 };
 
 class ClosedPath {
  public:
-  ClosedPath(const Route& route, const PathOptions& options, std::uint64_t seed) : turn_(route.turn) {
+  ClosedPath(const Route& route, const PathOptions& options, std::uint64_t seed)
+      : turn_(route.turn), stand_(options.stand) {
     const std::vector<double> stamp = schedule(route, options);
     const int knots = std::max(8, static_cast<int>(std::lround(stamp.back() / options.knot_seconds)));
     lap_seconds_ = stamp.back();
@@ -47,19 +52,28 @@ class ClosedPath {
       knots_.push_back((1.0 - share) * values(route, segment) + share * values(route, segment + 1));
     }
     Random random(seed);
-    for (Sway& sway : sways_) {
-      const int axis = static_cast<int>(&sway - sways_.data()) % 6;
-      const double size = options.tremor * (axis < 3 ? 0.0025 : radians(0.12)) * random.uniform(0.6, 1.4);
-      const double hertz = random.uniform(0.4, 2.6);
-      sway = {size / std::max(hertz, 0.8), 2.0 * std::numbers::pi * hertz, random.uniform(0.0, 6.28318)};
+    for (std::size_t i = 0; i < sways_.size(); ++i) {
+      const bool moves = i % 6 < 3;
+      if (i < kTremors) {
+        const double size = options.tremor * (moves ? 0.0025 : radians(0.12)) * random.uniform(0.6, 1.4);
+        const double hertz = random.uniform(0.4, 2.6);
+        sways_[i] = {size / std::max(hertz, 0.8), kTurn * hertz, random.uniform(0.0, 6.28318)};
+      } else {
+        const double size = options.shake * (moves ? 0.0005 : radians(0.1)) * random.uniform(0.6, 1.4);
+        sways_[i] = {size, kTurn * random.uniform(4.0, 9.0), random.uniform(0.0, 6.28318)};
+      }
     }
   }
 
   [[nodiscard]] double lap_seconds() const noexcept { return lap_seconds_; }
+  // With the time of standing.
+  [[nodiscard]] double first_lap_seconds() const noexcept {
+    return lap_seconds_ + (stand_ > 0.0 ? stand_ + 0.5 * kStart : 0.0);
+  }
 
   // The camera at a time in seconds; laps repeat, the tremor does not.
   [[nodiscard]] SE3<double> world_from_cam(double seconds) const {
-    Vec<double, 5> state = spline(seconds);
+    Vec<double, 5> state = spline(walked(seconds));
     Vec6<double> sway = Vec6<double>::Zero();
     for (std::size_t i = 0; i < sways_.size(); ++i) {
       sway[static_cast<int>(i % 6)] += sways_[i].size * std::sin(sways_[i].rate * seconds + sways_[i].phase);
@@ -84,6 +98,15 @@ class ClosedPath {
   struct Sway {
     double size, rate, phase;
   };
+  static constexpr std::size_t kTremors = 18, kShakes = 12;
+  static constexpr double kStart = 1.0;  // seconds from standing to full speed
+
+  // How long the walk would have taken without standing and starting.
+  [[nodiscard]] double walked(double seconds) const noexcept {
+    if (!(stand_ > 0.0)) return seconds;
+    const double since = std::max(0.0, seconds - stand_);
+    return since < kStart ? 0.5 * since * since / kStart : since - 0.5 * kStart;
+  }
 
   static Vec<double, 5> values(const Route& route, std::size_t i) {
     const RoutePoint& p = route.points[i % route.points.size()];
@@ -121,9 +144,9 @@ class ClosedPath {
     return sum;
   }
 
-  double turn_, lap_seconds_ = 0.0;
+  double turn_, stand_, lap_seconds_ = 0.0;
   std::vector<Vec<double, 5>> knots_;
-  std::array<Sway, 18> sways_;
+  std::array<Sway, kTremors + kShakes> sways_;
 };
 
 }  // namespace sslam::synth

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sslam/synth/face_view.hpp"
+#include "sslam/synth/lens_grid.hpp"
 #include "sslam/synth/noise.hpp"
 #include "sslam/synth/rendered_frame.hpp"
 #include "sslam/synth/scene.hpp"
@@ -31,20 +32,32 @@ class Renderer {
   }
 
   void render(const View& view, RenderedFrame& frame) {
-    visibility_.find(scene_, view, frame);
-    shading_.clear();
-    for (const FaceView& face : visibility_.faces()) shading_.push_back(Shading(face));
+    find(view, frame);
     for (int y = 0; y < frame.height; ++y) {
       for (int x = 0; x < frame.width; ++x) {
         const std::size_t i = static_cast<std::size_t>(y) * frame.width + x;
-        float* out = &frame.rgb[3 * i];
-        if (visibility_.mixed(i)) {
-          shade_edge(frame, x, y, out);
-        } else if (frame.surface[i] >= 0) {
-          shade(frame.surface[i], static_cast<float>(x), static_cast<float>(y), out);
-        } else {
-          out[0] = out[1] = out[2] = 0.0f;
-        }
+        paint(frame, {Vec2<float>(static_cast<float>(x), static_cast<float>(y))}, &frame.rgb[3 * i]);
+      }
+    }
+  }
+
+  // Rows top to bottom (exclusive) of a frame of the image's size, which keeps its other rows. The view's
+  // pinhole is that of the image; it is the lens that says where its pixels lie. Normals and faces are added
+  // to the frame's.
+  void render_rows(const View& view, const LensGrid& lens, int top, int bottom, RenderedFrame& frame) {
+    const LensGrid::Part part = lens.part(view, top, bottom);
+    find(part.view, part_);
+    const std::int32_t first = static_cast<std::int32_t>(frame.normals.size());
+    frame.normals.insert(frame.normals.end(), part_.normals.begin(), part_.normals.end());
+    frame.face.insert(frame.face.end(), part_.face.begin(), part_.face.end());
+    for (int y = top; y < bottom; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        const LensPoint point = lens.at(x, y, part);
+        const std::size_t i = static_cast<std::size_t>(y) * view.width + x;
+        paint(part_, point, &frame.rgb[3 * i]);
+        const int seen = seen_at(part_, point.place);
+        frame.surface[i] = seen < 0 ? -1 : first + seen;
+        frame.inverse_depth[i] = seen < 0 ? 0.0f : shading_[seen].inverse_depth(point.place);
       }
     }
   }
@@ -59,6 +72,9 @@ class Renderer {
           width(static_cast<float>(view.width)),
           height(static_cast<float>(view.height)),
           face(view.face) {}
+    [[nodiscard]] float inverse_depth(const Vec2<float>& at) const noexcept {
+      return w.x() * at.x() + w.y() * at.y() + w.z();
+    }
     Vec3<float> w, s, t;
     float width, height;
     int face;
@@ -77,7 +93,44 @@ class Renderer {
     return a + fy * (b - a);
   }
 
-  void shade(int id, float u, float v, float* out) const noexcept {
+  void find(const View& view, RenderedFrame& frame) {
+    visibility_.find(scene_, view, frame);
+    shading_.clear();
+    for (const FaceView& face : visibility_.faces()) shading_.push_back(Shading(face));
+  }
+
+  // The pixels around a point; one where it is the centre of a pixel.
+  static PixelBlock block_around(const Vec2<float>& at) noexcept {
+    return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+            static_cast<int>(std::ceil(at.x())), static_cast<int>(std::ceil(at.y()))};
+  }
+
+  // The face in the first of the pixels; all of them show the same where none is mixed.
+  static std::int32_t surface_in(const RenderedFrame& frame, const PixelBlock& block) noexcept {
+    return frame.surface[static_cast<std::size_t>(block.top) * frame.width + block.left];
+  }
+
+  void paint(const RenderedFrame& frame, const LensPoint& point, float* out) const noexcept {
+    const PixelBlock block = block_around(point.place);
+    if (visibility_.mixed(frame, block)) {
+      shade_edge(frame, block, point, out);
+    } else if (const std::int32_t id = surface_in(frame, block); id >= 0) {
+      shade(id, point.place.x(), point.place.y(), point.spread, out);
+    } else {
+      out[0] = out[1] = out[2] = 0.0f;
+    }
+  }
+
+  // The face that a point shows, -1 for none.
+  [[nodiscard]] int seen_at(const RenderedFrame& frame, const Vec2<float>& at) const noexcept {
+    const PixelBlock block = block_around(at);
+    if (!visibility_.mixed(frame, block)) return surface_in(frame, block);
+    Visibility::Candidates ids{};
+    const int seen = nearest(ids, visibility_.candidates(frame, block, ids), at.x(), at.y());
+    return seen < 0 ? -1 : ids[seen];
+  }
+
+  void shade(int id, float u, float v, const Mat2<float>& spread, float* out) const noexcept {
     const Shading& k = shading_[id];
     const float z = 1.0f / (k.w.x() * u + k.w.y() * v + k.w.z());
     const float s = std::clamp((k.s.x() * u + k.s.y() * v + k.s.z()) * z, 0.0f, k.width);
@@ -87,8 +140,10 @@ class Renderer {
     std::array<float, 3> colour{paint.colour.x(), paint.colour.y(), paint.colour.z()};
     if (paint.texture >= 0) {
       const Texture& texture = scene_.textures[paint.texture];
-      const Footprint footprint{{(k.s.x() - s * k.w.x()) * z, (k.t.x() - t * k.w.x()) * z},
-                                {(k.s.y() - s * k.w.y()) * z, (k.t.y() - t * k.w.y()) * z}};
+      const Vec2<float> across((k.s.x() - s * k.w.x()) * z, (k.t.x() - t * k.w.x()) * z);
+      const Vec2<float> down((k.s.y() - s * k.w.y()) * z, (k.t.y() - t * k.w.y()) * z);
+      const Footprint footprint{spread(0, 0) * across + spread(1, 0) * down,
+                                spread(0, 1) * across + spread(1, 1) * down};
       std::array<float, 3> value{};
       texture.sample(s + paint.offset.x(), t + paint.offset.y(), footprint, value.data());
       for (int c = 0; c < 3; ++c) {
@@ -99,15 +154,17 @@ class Renderer {
     for (int c = 0; c < 3; ++c) out[c] = colour[c] * light;
   }
 
-  void shade_edge(const RenderedFrame& frame, int x, int y, float* out) const noexcept {
+  void shade_edge(const RenderedFrame& frame, const PixelBlock& block, const LensPoint& point,
+                  float* out) const noexcept {
     Visibility::Candidates ids{};
-    const int count = visibility_.candidates(frame, x, y, ids);
-    const float u = static_cast<float>(x), v = static_cast<float>(y);
+    const int count = visibility_.candidates(frame, block, ids);
+    const float u = point.place.x(), v = point.place.y();
     std::array<int, Visibility::kMaxCandidates> hits{};
     std::array<Vec2<float>, Visibility::kMaxCandidates> mean;
     mean.fill(Vec2<float>::Zero());
     int total = 0;
-    for (const Vec2<float>& offset : offsets_) {
+    for (const Vec2<float>& step : offsets_) {
+      const Vec2<float> offset = point.spread * step;
       const int seen = nearest(ids, count, u + offset.x(), v + offset.y());
       if (seen < 0) continue;
       ++hits[seen];
@@ -119,7 +176,7 @@ class Renderer {
       if (hits[i] == 0) continue;
       std::array<float, 3> colour{};
       mean[i] /= static_cast<float>(hits[i]);
-      shade(ids[i], u + mean[i].x(), v + mean[i].y(), colour.data());
+      shade(ids[i], u + mean[i].x(), v + mean[i].y(), point.spread, colour.data());
       const float weight = static_cast<float>(hits[i]) / static_cast<float>(total);
       for (int c = 0; c < 3; ++c) out[c] += weight * colour[c];
     }
@@ -146,6 +203,7 @@ class Renderer {
   std::array<Vec2<float>, kSamples> offsets_;
   Visibility visibility_;
   std::vector<Shading> shading_;
+  RenderedFrame part_;  // of the rows that are rendered
 };
 
 }  // namespace sslam::synth

@@ -12,8 +12,6 @@
 
 namespace sslam::synth {
 
-inline constexpr double kTurn = 2.0 * std::numbers::pi;
-
 // The ellipse that a room leaves free for walking.
 struct FreeArea {
   Vec2<double> centre;

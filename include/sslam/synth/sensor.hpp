@@ -11,19 +11,23 @@
 #include "sslam/core/random.hpp"
 #include "sslam/synth/noise.hpp"
 #include "sslam/synth/rendered_frame.hpp"
+#include "sslam/synth/slow_drift.hpp"
 
 namespace sslam::synth {
 
 struct SensorOptions {
-  float noise = 1.5f;           // standard deviation, grey levels
-  float vignetting = 0.12f;     // loss of display value in the corners
-  float exposure_swing = 0.0f;  // the largest step of exposure, as a share of the display value
-  float exposure_hold = 1.5f;   // seconds between two steps
+  float noise = 1.5f;                // standard deviation, grey levels
+  float vignetting = 0.12f;          // loss of display value in the corners
+  float exposure_swing = 0.0f;       // the largest step of exposure, as a share of the display value
+  float exposure_hold = 1.5f;        // seconds between two steps
+  float exposure_drift = 0.0f;       // how far the exposure wanders, as a share of the display value
+  float white_balance_drift = 0.0f;  // how far red wanders up as blue goes down, as a share
 };
 
 class Sensor {
  public:
-  Sensor(const SensorOptions& options, std::uint64_t seed) : options_(options), seed_(seed) {
+  Sensor(const SensorOptions& options, std::uint64_t seed)
+      : options_(options), seed_(seed), brightness_(8.0, 30.0, seed + 78), warmth_(15.0, 60.0, seed + 79) {
     for (int i = 0; i < kLevels; ++i) normal_[i] = static_cast<float>(normal_quantile((i + 0.5) / kLevels));
   }
 
@@ -31,7 +35,10 @@ class Sensor {
   // number alone. Most of it is shared by the channels, as after demosaicing.
   void expose(const RenderedFrame& frame, int number, double seconds, std::vector<std::uint8_t>& out) const {
     out.resize(frame.rgb.size());
-    const float gain = 255.0f * exposure(seconds);
+    const float drift = options_.exposure_drift * static_cast<float>(brightness_.at(seconds));
+    const float gain = 255.0f * exposure(seconds) * (1.0f + drift);
+    const float warmth = options_.white_balance_drift * static_cast<float>(warmth_.at(seconds));
+    const std::array<float, 3> balance{1.0f + warmth, 1.0f, 1.0f - warmth};
     const float cx = 0.5f * static_cast<float>(frame.width - 1),
                 cy = 0.5f * static_cast<float>(frame.height - 1);
     const float fall = options_.vignetting / (cx * cx + cy * cy);
@@ -46,8 +53,8 @@ class Sensor {
         const std::uint64_t bits = random.next();
         const float common = shared * normal_[bits % kLevels] + 0.5f;
         for (int c = 0; c < 3; ++c, ++i) {
-          const float value =
-              frame.rgb[i] * level + common + own * normal_[bits >> (12 * (c + 1)) & (kLevels - 1)];
+          const float value = frame.rgb[i] * (level * balance[c]) + common +
+                              own * normal_[bits >> (12 * (c + 1)) & (kLevels - 1)];
           out[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f));
         }
       }
@@ -72,6 +79,7 @@ class Sensor {
 
   SensorOptions options_;
   std::uint64_t seed_;
+  SlowDrift brightness_, warmth_;
   std::array<float, kLevels> normal_;
 };
 

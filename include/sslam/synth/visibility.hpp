@@ -13,6 +13,11 @@
 
 namespace sslam::synth {
 
+// Pixels from left to right and top to bottom, both inclusive.
+struct PixelBlock {
+  int left, top, right, bottom;
+};
+
 class Visibility {
  public:
   static constexpr int kMaxCandidates = 16;
@@ -37,23 +42,34 @@ class Visibility {
   }
 
   [[nodiscard]] const std::vector<FaceView>& faces() const noexcept { return faces_; }
-  // True where the pixel may show more than one face.
-  [[nodiscard]] bool mixed(std::size_t pixel) const noexcept { return chain_[pixel] != kInterior; }
+  // True where one of the pixels may show more than one face.
+  [[nodiscard]] bool mixed(const RenderedFrame& frame, const PixelBlock& block) const noexcept {
+    for (int v = block.top; v <= block.bottom; ++v) {
+      for (int u = block.left; u <= block.right; ++u) {
+        if (chain_[static_cast<std::size_t>(v) * frame.width + u] != kInterior) return true;
+      }
+    }
+    return false;
+  }
 
-  // The faces that the pixel may show; returns how many.
-  [[nodiscard]] int candidates(const RenderedFrame& frame, int x, int y, Candidates& out) const noexcept {
+  // The faces that the block of pixels may show; returns how many.
+  [[nodiscard]] int candidates(const RenderedFrame& frame, const PixelBlock& block,
+                               Candidates& out) const noexcept {
     int count = 0;
     const auto add = [&](std::int32_t id) {
       if (id < 0 || count == kMaxCandidates) return;
       if (std::find(out.begin(), out.begin() + count, id) == out.begin() + count) out[count++] = id;
     };
-    for (int v = std::max(0, y - 1); v <= std::min(frame.height - 1, y + 1); ++v) {
-      for (int u = std::max(0, x - 1); u <= std::min(frame.width - 1, x + 1); ++u) {
+    for (int v = std::max(0, block.top - 1); v <= std::min(frame.height - 1, block.bottom + 1); ++v) {
+      for (int u = std::max(0, block.left - 1); u <= std::min(frame.width - 1, block.right + 1); ++u) {
         add(frame.surface[static_cast<std::size_t>(v) * frame.width + u]);
       }
     }
-    for (std::int32_t i = chain_[static_cast<std::size_t>(y) * frame.width + x]; i >= 0; i = links_[i].next) {
-      add(links_[i].face);
+    for (int v = block.top; v <= block.bottom; ++v) {
+      for (int u = block.left; u <= block.right; ++u) {
+        const std::size_t pixel = static_cast<std::size_t>(v) * frame.width + u;
+        for (std::int32_t i = chain_[pixel]; i >= 0; i = links_[i].next) add(links_[i].face);
+      }
     }
     return count;
   }
