@@ -8,24 +8,19 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/interrupt.hpp"
-#include "cli/shell/option_info.hpp"
-#include "cli/shell/progress_options.hpp"
 #include "cli/shell/worker_threads.hpp"
 #include "cli/synth/synth_files.hpp"
-#include "cli/synth/synth_names.hpp"
+#include "cli/synth/synth_options.hpp"
 #include "sslam/core/error.hpp"
-#include "sslam/io/files/text.hpp"
 #include "sslam/synth/render.hpp"
+#include "sslam/synth/rolling_shutter.hpp"
 #include "sslam/synth/shutter.hpp"
 
 namespace sslam::cli {
@@ -43,8 +38,11 @@ double stamp_of(const SynthSettings& settings, std::size_t frame) {
 }
 
 // Renders and writes the frames on all threads; returns how many from the first on are complete.
-std::size_t render_frames(const SynthSettings& settings, const synth::House& house, const synth::View& view,
-                          std::size_t frames) {
+std::size_t render_frames(const SynthSettings& settings, const synth::House& house,
+                          const Camera<double>& camera, const synth::LensGrid& lens, std::size_t frames) {
+  const synth::View view{camera.pinhole, camera.width, camera.height, {}};
+  const synth::Shutter shutter{settings.blur / settings.rate, settings.read_out};
+  const bool plain = settings.read_out == 0.0 && camera.distortion.is_identity();
   Progress progress(frames, settings.verbosity, "synth");
   const synth::Sensor sensor(settings.sensor, settings.house.seed);
   std::vector<std::uint8_t> written(frames, 0);
@@ -55,7 +53,10 @@ std::size_t render_frames(const SynthSettings& settings, const synth::House& hou
             writer = FrameWriter(settings)](std::size_t i) mutable {
       if (Interrupt::asked()) return;
       const double stamp = stamp_of(settings, i);
-      synth::render_open_shutter(*renderer, pose_at, stamp, settings.blur / settings.rate, view, frame);
+      if (plain)
+        synth::render_open_shutter(*renderer, pose_at, stamp, shutter.open, view, frame);
+      else
+        synth::render_rolling_shutter(*renderer, pose_at, stamp, shutter, view, lens, frame);
       sensor.expose(frame, static_cast<int>(i), stamp, rgb);
       writer.write(static_cast<int>(i), frame, rgb);
       written[i] = 1;
@@ -75,85 +76,12 @@ double length_of(const io::Trajectory& trajectory) {
   return length;
 }
 
-bool parse_size(const std::string& text, int& width, int& height) {
-  int end = 0;
-  return std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end) == 2 &&
-         end == static_cast<int>(text.size()) && width >= 32 && height >= 32 && width <= 8192 &&
-         height <= 8192;
-}
-
-// A number between two bounds; CLI::Range lets nan through.
-CLI::Validator between(double low, double high) {
-  return CLI::Validator(
-      [low, high](std::string& text) {
-        const std::optional<double> value = io::parse_number<double>(text);
-        if (value && *value >= low && *value <= high) return std::string();
-        char reason[128];
-        std::snprintf(reason, sizeof reason, "expected a number between %g and %g, found ", low, high);
-        return reason + ("'" + text + "'");
-      },
-      "");
-}
-
 void run_synth(const SynthSettings& settings) {
   const SynthReport report = synthesise(settings);
   std::printf("%s: %d frames, %.1f m, house built in %.1f s, %.1f frames/s\n", settings.folder.c_str(),
               report.frames, report.path_metres, report.build_seconds,
               report.frames / std::max(report.render_seconds, 1e-6));
   if (report.interrupted) throw Stop{ExitCode::kInterrupted};
-}
-
-// The settings must live until the application has been parsed.
-void add_scene_options(CLI::App& synth, SynthSettings& s) {
-  synth.add_option("--seed", s.house.seed, "of layout, materials, light, path and noise; default 1")
-      ->check([](const std::string& text) {
-        return io::parse_number<std::uint64_t>(text) ? std::string()
-                                                     : "'" + text + "' is not a whole number from 0 on";
-      });
-  add_choice(synth, "--texture", s.house.richness, kRichnessNames,
-             "rich, mixed or poor (plain paint alone); default rich");
-  add_choice(
-      synth, "--world", s.house.world, kWorldNames,
-      "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
-      "between walls); the last two for a single room; default manhattan");
-  synth.add_option("--rooms", s.house.rooms, "1, or 3 along a corridor; default 1")
-      ->check(CLI::IsMember({1, 3}));
-  add_choice(
-      synth, "--path", s.house.path, kPathNames,
-      "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
-      "always toured; default loop");
-  synth.add_option("--speed", s.house.motion.speed, "metres per second; default 0.5")
-      ->check(between(0.01, 5.0));
-  synth.add_option("--tremor", s.house.motion.tremor, "of the hand; 0: none, default 1")
-      ->check(between(0.0, 10.0));
-}
-
-void add_camera_options(CLI::App& synth, SynthSettings& s) {
-  synth.add_option("--frames", s.frames, "how many; default one lap of the path")
-      ->check(CLI::Range(1, 1000000).description(""));
-  synth.add_option("--fps", s.rate, "frames per second; default 30")->check(between(0.1, 1000.0));
-  synth
-      .add_option_function<std::string>(
-          "--size", [&s](const std::string& text) { (void)parse_size(text, s.width, s.height); },
-          "WIDTHxHEIGHT in pixels; default 640x480")
-      ->check([](const std::string& text) {
-        int width = 0, height = 0;
-        return parse_size(text, width, height)
-                   ? std::string()
-                   : "'" + text + "' is not a size such as 640x480 (32 to 8192 pixels)";
-      });
-  synth.add_option("--focal", s.focal, "focal length in pixels; default three quarters of the width")
-      ->check(between(10.0, 1e5));
-  synth.add_option("--noise", s.sensor.noise, "standard deviation in grey levels; default 1.5")
-      ->check(between(0.0, 100.0));
-  synth.add_option("--vignetting", s.sensor.vignetting, "darkening of the corners as a share; default 0.12")
-      ->check(between(0.0, 1.0));
-  synth.add_option("--blur", s.blur, "share of the frame time that the shutter is open; default 0")
-      ->check(between(0.0, 1.0));
-  synth
-      .add_option("--exposure", s.sensor.exposure_swing,
-                  "largest change of brightness, as a share; default 0")
-      ->check(between(0.0, 0.9));
 }
 
 }  // namespace
@@ -166,26 +94,43 @@ SynthReport synthesise(const SynthSettings& asked) {
     throw Error(
         "three rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
   }
-  if (settings.focal <= 0.0) settings.focal = 0.75 * settings.width;
+  if (settings.read_out * settings.rate > 1.0 + 1e-9) {
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "--read-out %g is longer than a frame: expected at most %.4g s at --fps %g",
+                  settings.read_out, 1.0 / settings.rate, settings.rate);
+    throw Error(text);
+  }
+  if (settings.focal <= 0.0) settings.focal = settings.focal_of_width * settings.width;
+  const Camera<double> camera{
+      {settings.focal, settings.focal, 0.5 * (settings.width - 1), 0.5 * (settings.height - 1)},
+      settings.lens,
+      settings.width,
+      settings.height};
+  const synth::LensGrid lens(camera);
+  if (!lens.usable()) {
+    throw Error(
+        "--lens " + lens_text(camera.distortion) +
+        ": the distortion turns back within the image, or nearly; expected a weaker one, or a --focal "
+        "longer than " +
+        std::to_string(std::lround(settings.focal)));
+  }
   prepare_synth_folder(settings);
   const Interrupt interrupt;
   SynthReport report;
   const Clock::time_point start = Clock::now();
   const synth::House house = synth::build_house(settings.house, WorkerThreads(settings.threads));
   report.build_seconds = seconds_since(start);
-  const int lap = std::max(1, static_cast<int>(std::lround(house.path.lap_seconds() * settings.rate)));
+  const int lap = std::max(1, static_cast<int>(std::lround(house.path.first_lap_seconds() * settings.rate)));
   const std::size_t frames = static_cast<std::size_t>(settings.frames > 0 ? settings.frames : lap);
-  const Pinhole<double> pinhole{settings.focal, settings.focal, 0.5 * (settings.width - 1),
-                                0.5 * (settings.height - 1)};
   const Clock::time_point rendering = Clock::now();
-  const std::size_t complete =
-      render_frames(settings, house, {pinhole, settings.width, settings.height, {}}, frames);
+  const std::size_t complete = render_frames(settings, house, camera, lens, frames);
   io::Trajectory truth;
   for (std::size_t i = 0; i < complete; ++i) {
     const double stamp = stamp_of(settings, i);
     truth.push_back({stamp, house.path.world_from_cam(stamp)});
   }
-  write_synth_lists(settings, pinhole, truth);
+  write_synth_lists(settings, camera, truth);
   report.render_seconds = seconds_since(rendering);
   report.frames = static_cast<int>(complete);
   report.path_metres = length_of(truth);
@@ -198,17 +143,7 @@ void add_synth_command(CLI::App& app) {
       app.add_subcommand("synth", "Render a synthetic house with ground truth, TUM RGB-D layout");
   auto settings = std::make_shared<SynthSettings>();
   synth->add_option("DIR", settings->folder, "where the data set goes; made if it is not there")->required();
-  add_scene_options(*synth, *settings);
-  add_camera_options(*synth, *settings);
-  synth->add_option("--image-format", settings->image_format, "jpg (quality 95) or png; default jpg")
-      ->check(CLI::IsMember({"jpg", "png"}));
-  synth->add_flag_callback(
-      "--no-depth", [settings] { settings->depth = false; }, "leave the depth images out");
-  synth->add_flag_callback(
-      "--no-normals", [settings] { settings->normals = false; }, "leave the normal images out");
-  synth->add_option("--threads", settings->threads, "default one for each processor; the result is the same")
-      ->check(CLI::Range(1, 1024).description(""));
-  add_progress_options(*synth, settings->verbosity, false);
+  add_synth_options(*synth, *settings);
   synth->callback([settings] { run_synth(*settings); });
 }
 

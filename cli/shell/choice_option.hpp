@@ -12,14 +12,15 @@
 
 namespace sslam::cli {
 
-// `target` and `names` must outlive the parsing.
-template <class Value>
-void add_choice(CLI::App& app, const std::string& flag, Value& target,
-                const std::map<std::string, Value>& names, const std::string& meaning) {
+// choose(value) gets the value of the word; `names` must outlive the parsing.
+template <class Value, class Choose>
+CLI::Option* add_choice_function(CLI::App& app, const std::string& flag, const Choose& choose,
+                                 const std::map<std::string, Value>& names, const std::string& meaning) {
   std::vector<std::string> words;
   for (const auto& [name, value] : names) words.push_back(name);
-  app.add_option_function<std::string>(
-         flag, [&target, &names](const std::string& word) { target = names.at(word); }, meaning)
+  return app
+      .add_option_function<std::string>(
+          flag, [choose, &names](const std::string& word) { choose(names.at(word)); }, meaning)
       ->type_name(words_type(words))
       ->check([&names](const std::string& word) {
         if (names.count(word) != 0) return std::string();
@@ -27,6 +28,14 @@ void add_choice(CLI::App& app, const std::string& flag, Value& target,
         for (const auto& [name, value] : names) io::add_to_list(known, name);
         return "'" + word + "' is not one of " + known;
       });
+}
+
+// `target` and `names` must outlive the parsing.
+template <class Value>
+void add_choice(CLI::App& app, const std::string& flag, Value& target,
+                const std::map<std::string, Value>& names, const std::string& meaning) {
+  add_choice_function(
+      app, flag, [&target](const Value& value) { target = value; }, names, meaning);
 }
 
 }  // namespace sslam::cli

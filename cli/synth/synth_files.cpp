@@ -24,10 +24,13 @@ std::string numbered(const char* folder, int number, const std::string& extensio
   return cv::format("%s/%06d.%s", folder, number, extension.c_str());
 }
 
-void write_camera(const SynthSettings& settings, const Pinhole<double>& pinhole) {
-  const std::string text =
-      camera_yaml({{pinhole, {}, settings.width, settings.height}, kDepthFactor, settings.rate, {}}, "");
-  io::write_text(fs::path(settings.folder) / "camera.yaml", text);
+void write_camera(const SynthSettings& settings, const Camera<double>& camera) {
+  const auto write = [&](const char* name, const Camera<double>& content) {
+    io::write_text(fs::path(settings.folder) / name,
+                   camera_yaml({content, kDepthFactor, settings.rate, {}}, ""));
+  };
+  write("camera.yaml", with_error(camera, settings.camera_error));
+  if (!camera_error_text(settings.camera_error).empty()) write("camera_true.yaml", camera);
 }
 
 void write_manifest(const SynthSettings& s, std::size_t frames) {
@@ -40,12 +43,20 @@ void write_manifest(const SynthSettings& s, std::size_t frames) {
   text += "texture = \"" + name_of(kRichnessNames, s.house.richness) + "\"\n";
   text += "world = \"" + name_of(kWorldNames, s.house.world) + "\"\n";
   text += "path = \"" + name_of(kPathNames, s.house.path) + "\"\n";
-  text += cv::format("rooms = %d\nspeed = %g\ntremor = %g\n", s.house.rooms, s.house.motion.speed,
-                     s.house.motion.tremor);
+  const synth::PathOptions& motion = s.house.motion;
+  text += cv::format("rooms = %d\nspeed = %g\ntremor = %g\nshake = %g\nstand = %g\n", s.house.rooms,
+                     motion.speed, motion.tremor, motion.shake, motion.stand);
   text += cv::format("fps = %g\nsize = \"%dx%d\"\nfocal = %g\n", s.rate, s.width, s.height, s.focal);
   text += cv::format("noise = %g\nvignetting = %g\nblur = %g\nexposure = %g\n", s.sensor.noise,
                      s.sensor.vignetting, s.blur, s.sensor.exposure_swing);
+  text += cv::format("read-out = %g\nexposure-drift = %g\nwhite-balance-drift = %g\n", s.read_out,
+                     s.sensor.exposure_drift, s.sensor.white_balance_drift);
+  text += "lens = \"" + lens_text(s.lens) + "\"\n";
+  if (const std::string error = camera_error_text(s.camera_error); !error.empty())
+    text += "camera-error = \"" + error + "\"\n";
+  text += "image-fixed = \"" + name_of(kImageFixedNames, s.image_fixed) + "\"\n";
   text += "image-format = \"" + s.image_format + "\"\n";
+  text += cv::format("jpeg-quality = %d\n", s.jpeg_quality);
   text += cv::format("no-depth = %s\nno-normals = %s\n", s.depth ? "false" : "true",
                      s.normals ? "false" : "true");
   io::write_text(fs::path(s.folder) / "synth.toml", text);
@@ -60,7 +71,7 @@ void prepare_synth_folder(const SynthSettings& settings) {
     throw Error(settings.folder + ": holds a data set that sslam synth did not make; choose another folder");
   }
   io::prepare_output_folder(folder);
-  for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt"})
+  for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt", "camera_true.yaml"})
     fs::remove(folder / list, ignored);
   io::prepare_output_folder(folder / "rgb");
   if (settings.depth) io::prepare_output_folder(folder / "depth");
@@ -73,9 +84,10 @@ void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std
   const cv::Mat colour(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(colour, bgr, cv::COLOR_RGB2BGR);
+  draw_image_fixed(settings_.image_fixed, number / settings_.rate, bgr);
   const bool png = settings_.image_format == "png";
   write_image(fs::path(settings_.folder) / numbered("rgb", number, settings_.image_format), bgr,
-              png ? fast_png() : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95});
+              png ? fast_png() : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, settings_.jpeg_quality});
   if (settings_.depth) write_depth(numbered("depth", number, "png"), frame);
   if (settings_.normals) write_normals(numbered("normals", number, "png"), frame);
 }
@@ -101,7 +113,7 @@ void FrameWriter::write_normals(const std::string& name, const synth::RenderedFr
   write_image(fs::path(settings_.folder) / name, image, fast_png());
 }
 
-void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole,
+void write_synth_lists(const SynthSettings& settings, const Camera<double>& camera,
                        const io::Trajectory& truth) {
   const fs::path folder = settings.folder;
   const auto list = [&](const char* name, const std::string& extension) {
@@ -110,7 +122,7 @@ void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pin
       text += cv::format("%.6f ", truth[i].stamp) + numbered(name, static_cast<int>(i), extension) + "\n";
     io::write_text(folder / (std::string(name) + ".txt"), text);
   };
-  write_camera(settings, pinhole);
+  write_camera(settings, camera);
   write_manifest(settings, truth.size());
   io::write_trajectory(folder / "groundtruth.txt", truth);
   if (settings.depth) list("depth", "png");

@@ -34,8 +34,8 @@ class FrameWriter {
 };
 
 // rgb.txt, depth.txt, normals.txt, groundtruth.txt, camera.yaml and synth.toml for the first truth.size()
-// frames.
-void write_synth_lists(const SynthSettings& settings, const Pinhole<double>& pinhole,
+// frames; camera_true.yaml where camera.yaml is to be wrong.
+void write_synth_lists(const SynthSettings& settings, const Camera<double>& camera,
                        const io::Trajectory& truth);
 
 }  // namespace sslam::cli

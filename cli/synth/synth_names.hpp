@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "cli/synth/image_fixed.hpp"
 #include "sslam/synth/house.hpp"
 
 namespace sslam::cli {
@@ -18,6 +19,9 @@ inline const std::map<std::string, synth::World> kWorldNames{{"manhattan", synth
                                                              {"free", synth::World::kFree}};
 inline const std::map<std::string, synth::PathKind> kPathNames{
     {"loop", synth::PathKind::kLoop}, {"sweep", synth::PathKind::kSweep}, {"pivot", synth::PathKind::kPivot}};
+
+inline const std::map<std::string, ImageFixed> kImageFixedNames{
+    {"none", ImageFixed::kNone}, {"text", ImageFixed::kText}, {"bar", ImageFixed::kBar}};
 
 template <class Value>
 [[nodiscard]] std::string name_of(const std::map<std::string, Value>& names, Value value) {
