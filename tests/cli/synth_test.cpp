@@ -16,6 +16,7 @@
 #include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
+#include "sslam/opencv/camera/undistorter.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -133,6 +134,85 @@ TEST_CASE("synth leaves out what is not wanted") {
   CHECK_FALSE(fs::exists(scratch / "a/depth"));
   CHECK_FALSE(fs::exists(scratch / "a/depth.txt"));
   CHECK_FALSE(fs::exists(scratch / "a/normals"));
+}
+
+TEST_CASE("an image through a lens, undistorted with its camera file, is the pinhole's image") {
+  const Scratch scratch;
+  const std::string clean = kSmall + "--frames 1 --image-format png --noise 0 --vignetting 0 --no-normals ";
+  REQUIRE(synth(scratch / "bent" + clean + "--lens=-0.25,0.06,0.002,-0.001").code == 0);
+  REQUIRE(synth(scratch / "straight" + clean).code == 0);
+  const Camera<double> camera = read_camera_file(scratch / "bent/camera.yaml").camera;
+  CHECK(camera.distortion.k1 == -0.25);
+  CHECK(camera.distortion.p2 == -0.001);
+  const cv::Mat bent = cv::imread(scratch / "bent/rgb/000000.png");
+  const cv::Mat straight = cv::imread(scratch / "straight/rgb/000000.png");
+  Undistorter undistorter;
+  const cv::Mat middle = undistorter.undistort(bent, camera);
+  const auto difference = [](const cv::Mat& a, const cv::Mat& b) {
+    const cv::Rect inside(4, 4, 152, 112);
+    return cv::norm(a(inside), b(inside), cv::NORM_L1) / (3.0 * inside.area());
+  };
+  CHECK(difference(middle, straight) < 0.4 * difference(bent, straight));
+  CHECK(difference(middle, straight) < 8.0);
+  // Depth has the image's distortion: each bent pixel shows what the pinhole's pixel shows.
+  const cv::Mat depth = cv::imread(scratch / "bent/depth/000000.png", cv::IMREAD_UNCHANGED);
+  const cv::Mat ideal = cv::imread(scratch / "straight/depth/000000.png", cv::IMREAD_UNCHANGED);
+  int agree = 0, seen = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const Vec2<double> at = camera.undistort_pixel(Vec2<double>(x, y));
+      const int u = static_cast<int>(std::lround(at.x())), v = static_cast<int>(std::lround(at.y()));
+      if (u < 0 || v < 0 || u >= 160 || v >= 120) continue;
+      ++seen;
+      if (std::abs(depth.at<std::uint16_t>(y, x) - ideal.at<std::uint16_t>(v, u)) <
+          0.02 * ideal.at<std::uint16_t>(v, u))
+        ++agree;
+    }
+  }
+  REQUIRE(seen > 14000);
+  CHECK(agree > 0.93 * seen);
+}
+
+TEST_CASE("a camera file is off by what was asked, and the true one stands beside it") {
+  const Scratch scratch;
+  const std::string small = kSmall + "--frames 1 --no-depth --no-normals --texture poor --lens 0.02,0 ";
+  REQUIRE(synth(scratch / "a" + small + "--camera-error focal=0.05,cx=-3,k1=0.1").code == 0);
+  const Camera<double> given = read_camera_file(scratch / "a/camera.yaml").camera;
+  const Camera<double> truth = read_camera_file(scratch / "a/camera_true.yaml").camera;
+  CHECK(std::abs(truth.pinhole.fx - 120.0) < 1e-6);
+  CHECK(std::abs(given.pinhole.fx - 126.0) < 1e-6);
+  CHECK(std::abs(given.pinhole.fy - 126.0) < 1e-6);
+  CHECK(std::abs(given.pinhole.cx - truth.pinhole.cx + 3.0) < 1e-6);
+  CHECK(std::abs(given.distortion.k1 - 0.12) < 1e-9);
+  CHECK(std::abs(truth.distortion.k1 - 0.02) < 1e-9);
+  REQUIRE(synth(scratch / "a" + small).code == 0);
+  CHECK_FALSE(fs::exists(scratch / "a/camera_true.yaml"));
+}
+
+TEST_CASE("a camera's look is overridden by what is said beside it, and repeats itself") {
+  const Scratch scratch;
+  const std::string shown = " --quiet --size 160x90 --frames 2 --tremor 2 --texture poor ";
+  REQUIRE(synth(scratch / "a" + shown + "--camera-like phone --threads 1 --image-fixed bar").code == 0);
+  REQUIRE(synth("--quiet --camera-like phone " + (scratch / "b") + shown + "--threads 2 --image-fixed bar")
+              .code == 0);
+  CHECK(same_images(scratch / "a", scratch / "b", 2));
+  const std::string manifest = text_of(fs::path(scratch / "a/synth.toml"));
+  INFO(manifest);
+  for (const char* line : {"read-out = 0.02\n", "size = \"160x90\"\n", "focal = 128\n", "tremor = 2\n",
+                           "shake = 1\n", "jpeg-quality = 85\n", "image-fixed = \"bar\"\n"})
+    CHECK(manifest.find(line) != std::string::npos);
+}
+
+TEST_CASE("what is fixed to the image stays while the rest moves") {
+  const Scratch scratch;
+  const std::string options =
+      kSmall + "--frames 2 --fps 2 --noise 0 --image-format png --no-depth --no-normals ";
+  REQUIRE(synth(scratch / "a" + options + "--image-fixed bar").code == 0);
+  const cv::Mat first = cv::imread(scratch / "a/rgb/000000.png");
+  const cv::Mat last = cv::imread(scratch / "a/rgb/000001.png");
+  const cv::Rect bar(0, 100, 160, 20), rest(0, 0, 160, 100);
+  CHECK(cv::norm(first(bar), last(bar), cv::NORM_INF) == 0.0);
+  CHECK(cv::norm(first(rest), last(rest), cv::NORM_INF) > 20.0);
 }
 
 }  // namespace synth_test
