@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels on arrays. Pixels are those of the camera's images, distorted as they are; poses are camera to
-// world.
+// Kernels on arrays, of one view or two. Pixels are those of the camera's images, distorted as they are;
+// poses are camera to world.
 #include <nanobind/stl/optional.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/pixels.hpp"
 #include "sslam/manhattan/votes.hpp"
 #include "sslam/system/compiled_kernels.hpp"
 
@@ -18,14 +19,6 @@ namespace sslam::python {
 namespace {
 
 using Free = nb::gil_scoped_release;
-
-Vec2<double> undistorted(const Camera<double>& camera, const double* pixel) {
-  return camera.undistort_pixel({pixel[0], pixel[1]});
-}
-
-double focal_of(const Camera<double>& camera) {
-  return std::sqrt(camera.pinhole.fx * camera.pinhole.fy);
-}
 
 // Matches of pixels as the kernels of two views want them; sigma in pixels.
 std::vector<BearingMatch<double>> matches_of(const Rows<double>& pixels0, const Rows<double>& pixels1,
@@ -143,43 +136,6 @@ nb::tuple translation(const Rows<double>& pixels0, const Rows<double>& pixels1, 
                         answer.parallax, flags_of(inliers));
 }
 
-// pixels (N, V, 2): NaN where a view does not see a point.
-nb::tuple triangulate(const Rows<double>& poses, const Rows<double>& pixels, const Camera<double>& camera,
-                      double sigma, double min_parallax) {
-  const std::size_t views = poses.size() / 16, points = views > 0 ? pixels.size() / (2 * views) : 0;
-  std::vector<SE3<double>> cam_from_world;
-  for (std::size_t v = 0; v < views; ++v)
-    cam_from_world.push_back(pose_from(poses.data() + 16 * v, item("poses", v)).inverse());
-  std::vector<double> positions, covariances, parallaxes, errors;
-  std::vector<std::uint8_t> statuses;
-  {
-    const Free free;
-    PointTriangulationOptions<double> options;
-    options.min_parallax = min_parallax;
-    std::vector<PointView<double>> seen;
-    for (std::size_t i = 0; i < points; ++i) {
-      seen.clear();
-      for (std::size_t v = 0; v < views; ++v) {
-        const double* const pixel = pixels.data() + 2 * (i * views + v);
-        if (std::isnan(pixel[0]) && std::isnan(pixel[1])) continue;
-        const Vec3<double> ray = camera.pinhole.unproject(undistorted(camera, pixel));
-        seen.push_back({cam_from_world[v], ray.head<2>(), sigma / focal_of(camera)});
-      }
-      const PointTriangulation<double> answer =
-          triangulate_point(std::span<const PointView<double>>(seen), options);
-      append(positions, answer.point);
-      append(covariances, answer.covariance);
-      parallaxes.push_back(answer.parallax);
-      errors.push_back(answer.max_error);
-      statuses.push_back(static_cast<std::uint8_t>(answer.status));
-    }
-  }
-  return nb::make_tuple(make_array(std::move(statuses), {points}),
-                        make_array(std::move(positions), {points, 3}),
-                        make_array(std::move(covariances), {points, 3, 3}),
-                        make_array(std::move(parallaxes), {points}), make_array(std::move(errors), {points}));
-}
-
 nb::tuple refine(const Rows<double>& points, const Rows<double>& pixels, const Rows<double>& segments_world,
                  const Rows<double>& segments, const Camera<double>& camera, const Rows<double>& start,
                  double sigma) {
@@ -221,7 +177,6 @@ void bind_kernels(nb::module_& module) {
   module.def("relative_pose", &relative_pose, nb::arg("pixels0"), nb::arg("pixels1"), nb::arg("camera"),
              nb::arg("sigma"), nb::arg("start").none(), nb::arg("seed"));
   module.def("translation_from_rotation", &translation);
-  module.def("triangulate_points", &triangulate);
   module.def("refine_pose", &refine);
 }
 

@@ -58,6 +58,7 @@ NB_MODULE(_sslam, module) {
   python::bind_map(module);
   python::bind_system(module);
   python::bind_kernels(module);
+  python::bind_map_kernels(module);
   python::bind_datasets(module);
   python::bind_evaluation(module);
 }

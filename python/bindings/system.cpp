@@ -75,6 +75,11 @@ std::map<std::string, float> timings(const Result& result) {
   return all;
 }
 
+nb::object covariance_or_none(const Result& result) {
+  if (!result.has_pose() || !result.has_covariance()) return nb::none();
+  return nb::cast(matrix_array<6, 6>(result.covariance));
+}
+
 nb::object pose_or_none(const std::optional<SE3<double>>& world_from_cam) {
   if (!world_from_cam) return nb::none();
   return nb::cast(matrix_array<4, 4>(matrix_of(*world_from_cam)));
@@ -108,6 +113,12 @@ void bind_result(nb::module_& module) {
           },
           nb::sig("def pose(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "camera to world, (4, 4), in units of the map; None where the frame has no pose")
+      .def_prop_ro("covariance", &covariance_or_none,
+                   nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None"),
+                   "(6, 6), of xi in pose @ Exp(xi), in the camera's axes: rotation first, rad^2, then the "
+                   "place, units of the map squared. The map counts as exact. None where the pose was not "
+                   "refined against the map: where there is none, or it began the map, or the preset is "
+                   "'odometry'")
       .def_ro("index", &Result::index, "number of the frame, from 0")
       .def_ro("stamp", &Result::stamp, "seconds")
       .def_ro("state", &Result::state)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels as C++ calls them, on the numbers of standard input: what test_kernels.py compares with. The
 // first word names the kernel; all that it answers is printed, exactly.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -17,9 +18,9 @@ namespace {
 using namespace sslam;
 
 double number() {
-  double value = 0;
-  if (!(std::cin >> value)) throw std::runtime_error("a number is missing");
-  return value;
+  std::string word;
+  if (!(std::cin >> word)) throw std::runtime_error("a number is missing");
+  return std::stod(word);  // "nan" is one
 }
 
 std::size_t count() {
@@ -144,6 +145,95 @@ void triangulate() {
   }
 }
 
+bool unseen(const std::vector<double>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
+}
+
+std::vector<double> numbers(std::size_t count) {
+  std::vector<double> all(count);
+  for (double& value : all) value = number();
+  return all;
+}
+
+Segment2<double> segment(const Camera<double>& lens, const std::vector<double>& ends) {
+  return {lens.undistort_pixel({ends[0], ends[1]}), lens.undistort_pixel({ends[2], ends[3]})};
+}
+
+void triangulate_lines() {
+  const Camera<double> lens = camera();
+  std::vector<SE3<double>> cameras(count());
+  for (auto& view : cameras) view = pose().inverse();
+  for (std::size_t lines = count(); lines > 0; --lines) {
+    const std::vector<double> along = numbers(3);
+    std::vector<LineView<double>> views;
+    for (const auto& cam_from_world : cameras) {
+      const std::vector<double> ends = numbers(4);
+      if (unseen(ends)) continue;
+      LineView<double> view = make_line_view(cam_from_world, lens.pinhole, segment(lens, ends), 1.0);
+      view.sigma = 1 / std::sqrt(lens.pinhole.fx * lens.pinhole.fy);
+      views.push_back(view);
+    }
+    const std::span<const LineView<double>> all(views);
+    const LineTriangulationOptions<double> options;
+    const auto answer = unseen(along) ? triangulate_line(all, options)
+                                      : triangulate_line_along(all, {along[0], along[1], along[2]}, options);
+    print_status(answer.status);
+    print(answer.start);
+    print(answer.end);
+    print(answer.covariance);
+  }
+}
+
+// The first view is held, and its distance from the last.
+void adjust() {
+  const Camera<double> lens = camera();
+  BundleGraph<double> graph;
+  graph.views.resize(count());
+  for (auto& view : graph.views) {
+    view.cam_from_world = pose().inverse();
+    view.pinhole = lens.pinhole;
+  }
+  graph.views.front().hold = Hold::kPose;
+  const auto last = static_cast<std::int32_t>(graph.views.size()) - 1;
+  const auto centre = [&](const auto& view) -> Vec3<double> {
+    return view.cam_from_world.inverse().translation;
+  };
+  graph.scale = {0, last, (centre(graph.views.back()) - centre(graph.views.front())).norm()};
+  graph.points.resize(count());
+  for (auto& point : graph.points) {
+    for (int i = 0; i < 3; ++i) point.position[i] = number();
+    point.first_edge = static_cast<std::int32_t>(graph.point_edges.size());
+    for (std::int32_t v = 0; v <= last; ++v)
+      graph.point_edges.push_back({lens.undistort_pixel(pixel()), 1.0, v});
+    point.last_edge = static_cast<std::int32_t>(graph.point_edges.size());
+  }
+  graph.lines.resize(count());
+  for (auto& line : graph.lines) {
+    const std::vector<double> ends = numbers(6);
+    line.start = {ends[0], ends[1], ends[2]};
+    line.end = {ends[3], ends[4], ends[5]};
+    line.line = Line3<double>::from_points(line.start, line.end);
+    line.first_edge = static_cast<std::int32_t>(graph.line_edges.size());
+    for (std::int32_t v = 0; v <= last; ++v) graph.line_edges.push_back({segment(lens, numbers(4)), 1.0, v});
+    line.last_edge = static_cast<std::int32_t>(graph.line_edges.size());
+  }
+  BundleSolver<double> solver;
+  solver.options.max_iterations = 50;
+  const BundleSummary summary = solver.solve(graph);
+  print_status(summary.status);
+  for (const auto& view : graph.views) {
+    const SE3<double> world_from_cam = view.cam_from_world.inverse();
+    print(world_from_cam.rotation.matrix());
+    print(world_from_cam.translation);
+  }
+  for (const auto& point : graph.points) print(point.position);
+  for (const auto& line : graph.lines) {
+    print(line.line.point_closest_to(line.start));
+    print(line.line.point_closest_to(line.end));
+  }
+  std::printf("%.17g %.17g %d ", summary.initial_cost, summary.final_cost, summary.iterations);
+}
+
 void refine() {
   const Camera<double> lens = camera();
   std::vector<PointObservation<double>> points(count());
@@ -171,6 +261,8 @@ int main() {
   if (kernel == "refined_relative_pose") two_views(true);
   if (kernel == "translation") translation();
   if (kernel == "triangulate") triangulate();
+  if (kernel == "triangulate_lines") triangulate_lines();
+  if (kernel == "bundle_adjust") adjust();
   if (kernel == "refine_pose") refine();
   return 0;
 }

@@ -46,6 +46,9 @@ class Scene:
         starts = random.uniform([-1.5, -1, 4], [1.5, 1, 6], (30, 3))
         ends = starts + 0.8 * self.room.T[np.arange(30) % 3]
         self.segments = np.hstack([project(starts, np.eye(4)), project(ends, np.eye(4))])
+        self.lines = np.stack([starts, ends], axis=1)
+        self.views_of_lines = np.stack([np.hstack([project(starts, p), project(ends, p)]) for p in self.poses], axis=1)
+        self.views_of_lines += random.normal(0, 0.3, self.views_of_lines.shape)
 
 
 SCENE = Scene()
@@ -124,6 +127,59 @@ class SameNumbers(unittest.TestCase):
         expected = by_cpp("triangulate", 3, SCENE.poses, len(SCENE.points), SCENE.pixels).reshape(-1, 13)
         self.same(np.column_stack([found.status, found.points, found.covariance.reshape(-1, 9)]), expected)
 
+    def test_triangulate_lines(self):
+        segments = SCENE.views_of_lines.copy()
+        segments[:5, 1] = np.nan  # two views of three
+        directions = np.full((30, 3), np.nan)
+        directions[20:] = SCENE.room.T[np.arange(20, 30) % 3]
+        found = sslam.triangulate_lines(SCENE.poses, segments, CAMERA, directions=directions)
+        good = found.status == sslam.Status.OK
+        self.assertGreater(good[:20].sum(), 5)
+        self.assertGreater(good[20:].sum(), 5)
+        along = SCENE.lines[:, 1] - SCENE.lines[:, 0]
+        off = np.cross(found.ends - SCENE.lines[:, :1], along[:, None] / np.linalg.norm(along, axis=1)[:, None, None])
+        self.assertLess(np.median(np.linalg.norm(off[good], axis=2)), 0.1)
+        numbers = [flat(d, s) for d, s in zip(directions, segments)]
+        expected = by_cpp("triangulate_lines", 3, SCENE.poses, len(segments), flat(*numbers)).reshape(-1, 16)
+        self.same(np.column_stack([found.status, found.ends.reshape(-1, 6), found.covariance.reshape(-1, 9)]), expected)
+
+    def start_of_adjustment(self):
+        random = np.random.default_rng(3)
+        poses = SCENE.poses.copy()
+        poses[1] = poses[1] @ moved(turn(0.01, 0, 0.01), [0.05, 0, 0])
+        upright = slice(1, None, 3)  # across the motion, which shows where they are
+        lines = SCENE.lines[upright] + random.normal(0, 0.02, (10, 2, 3))
+        return poses, SCENE.points + random.normal(0, 0.05, SCENE.points.shape), lines, SCENE.views_of_lines[upright]
+
+    def test_bundle_adjust(self):
+        poses, points, lines, segments = self.start_of_adjustment()
+        found = sslam.bundle_adjust(poses, points, SCENE.pixels, CAMERA, lines=lines, segments=segments)
+        self.assertEqual(found.status, sslam.Status.OK)
+        self.assertLess(found.final_cost, found.initial_cost / 10)
+        np.testing.assert_array_equal(found.poses[0], poses[0])
+        np.testing.assert_allclose(found.poses, SCENE.poses, atol=0.02)
+        self.assertLess(np.median(np.abs(found.points - SCENE.points)), 0.02)
+        numbers = [flat(p, s) for p, s in zip(points, SCENE.pixels)], [flat(p, s) for p, s in zip(lines, segments)]
+        self.same(
+            flat(found.status, *(flat(p[:3, :3], p[:3, 3]) for p in found.poses), found.points, found.lines, *found[4:]),
+            by_cpp("bundle_adjust", 3, poses, len(points), flat(*numbers[0]), len(lines), flat(*numbers[1])),
+        )
+
+    def test_bundle_adjust_moves_nothing_that_is_held_or_unseen(self):
+        poses, points, lines, segments = self.start_of_adjustment()
+        pixels, segments = SCENE.pixels.copy(), segments.copy()
+        pixels[0, 1:] = segments[0, 1:] = np.nan
+        held = [True, False, True]
+        found = sslam.bundle_adjust(poses, points, pixels, CAMERA, lines=lines, segments=segments, held=held)
+        self.assertEqual(found.status, sslam.Status.OK)
+        np.testing.assert_array_equal(found.poses[held], poses[held])
+        np.testing.assert_allclose(found.poses[1], SCENE.poses[1], atol=0.01)
+        np.testing.assert_array_equal(found.points[0], points[0])
+        np.testing.assert_allclose(found.lines[0], lines[0], atol=1e-9)
+        blind = sslam.bundle_adjust(poses, points, np.full_like(pixels, np.nan), CAMERA)
+        self.assertEqual(blind.status, sslam.Status.TOO_FEW)
+        np.testing.assert_array_equal(blind.points, points)
+
     def test_refine_pose(self):
         start = SCENE.poses[1] @ moved(turn(0.01, 0, 0.01), [0.05, 0, 0])
         found = sslam.refine_pose(SCENE.points, SCENE.pixels[:, 1], CAMERA, start)
@@ -153,6 +209,16 @@ class Refusals(unittest.TestCase):
         self.refuses(ValueError, "start:", sslam.relative_pose, a, b, CAMERA, start=np.diag([1, 1, -1, 1.0]))
         self.refuses(ValueError, "poses[1]:", sslam.triangulate_points, [np.eye(4), 2 * np.eye(4)], np.zeros((1, 2, 2)), CAMERA)
         self.refuses(ValueError, "pixels:", sslam.triangulate_points, SCENE.poses, SCENE.pixels[:, :2], CAMERA)
+        self.refuses(ValueError, "segments:", sslam.triangulate_lines, SCENE.poses, SCENE.segments[:, None], CAMERA)
+        self.refuses(
+            ValueError, "directions:", sslam.triangulate_lines, SCENE.poses, SCENE.views_of_lines, CAMERA, directions=[[1, 0, 0]]
+        )
+        adjust = (sslam.bundle_adjust, SCENE.poses, SCENE.points)
+        self.refuses(ValueError, "pixels:", *adjust, SCENE.pixels[1:], CAMERA)
+        self.refuses(ValueError, "segments:", *adjust, SCENE.pixels, CAMERA, lines=SCENE.lines)
+        self.refuses(ValueError, "held:", *adjust, SCENE.pixels, CAMERA, held=[True])
+        self.refuses(ValueError, "held:", *adjust, SCENE.pixels, CAMERA, held=[False] * 3)
+        self.refuses(ValueError, "max_iterations:", *adjust, SCENE.pixels, CAMERA, max_iterations=0)
         self.refuses(ValueError, "camera:", sslam.manhattan_rotation, segments=SCENE.segments)
         self.refuses(ValueError, "prior:", sslam.manhattan_rotation, SCENE.normals, prior=np.zeros((3, 3)))
         self.refuses(ValueError, "weights:", sslam.manhattan_rotation, SCENE.normals, weights=[1.0])
@@ -169,6 +235,10 @@ class Refusals(unittest.TestCase):
         infinite[3] = np.inf
         self.assertEqual(sslam.relative_pose(infinite, SCENE.pixels[:, 1], CAMERA).status, sslam.Status.NOT_FINITE)
         self.assertEqual(sslam.triangulate_points(np.empty((0, 4, 4)), np.empty((0, 0, 2)), CAMERA).points.shape, (0, 3))
+        self.assertEqual(sslam.triangulate_lines(np.empty((0, 4, 4)), np.empty((0, 0, 4)), CAMERA).ends.shape, (0, 2, 3))
+        self.assertEqual(
+            sslam.bundle_adjust(SCENE.poses, SCENE.points * np.nan, SCENE.pixels, CAMERA).status, sslam.Status.NOT_FINITE
+        )
         unseen = SCENE.pixels.copy()
         unseen[0, 1:] = np.nan
         self.assertEqual(sslam.triangulate_points(SCENE.poses, unseen, CAMERA).status[0], sslam.Status.TOO_FEW)

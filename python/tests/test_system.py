@@ -87,6 +87,31 @@ class Tracking(unittest.TestCase):
         tracker.track(image, 0.0)
         self.assertEqual(image.tobytes(), before)
 
+    def test_poses_come_with_a_covariance_that_the_truth_bears_out(self):
+        results = [r for r in track_all(system()) if r.pose is not None]
+        self.assertIsNone(results[0].covariance)  # it began the map
+        known = [r for r in results if r.covariance is not None]
+        self.assertEqual(len(known), len(results) - 1)
+        truth = sslam.open_dataset(ROOM).ground_truth
+        scale = sslam.evaluate(truth, sslam.Trajectory([r.stamp for r in results], [r.pose for r in results])).scale
+        turned, moved = [], []
+        for before, after in zip(known, known[1:]):
+            for r in (before, after):
+                np.testing.assert_allclose(r.covariance, r.covariance.T, atol=1e-15)
+                self.assertGreater(np.linalg.eigvalsh(r.covariance).min(), 0)
+            step = np.linalg.inv(before.pose) @ after.pose
+            right = np.linalg.inv(truth.poses[before.index]) @ truth.poses[after.index]
+            off = right[:3, :3].T @ step[:3, :3]
+            sigma = np.sqrt(np.diag(before.covariance) + np.diag(after.covariance))
+            turned.append(np.array([off[2, 1], off[0, 2], off[1, 0]]) / sigma[:3])
+            moved.append((scale * step[:3, 3] - right[:3, 3]) / (scale * sigma[3:]))
+        for errors in (turned, moved):  # of consecutive frames, in standard deviations
+            self.assertLess(np.median(np.abs(errors)), 2)
+            self.assertGreater(np.median(np.abs(errors)), 0.2)
+        odometry = [r for r in track_all(system(preset="odometry"), count=30) if r.pose is not None]
+        self.assertTrue(odometry)
+        self.assertTrue(all(r.covariance is None for r in odometry))
+
     def test_a_mask_leaves_features_out(self):
         everything = system().track(frames()[0].image, 0.0)
         mask = np.ones((240, 320), bool)

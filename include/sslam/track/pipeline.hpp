@@ -152,6 +152,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = frame.cam_from_world;
+    result.covariance = estimate.covariance;
     trial.end_loss();
     if (!tracked) {
       motion.stop();

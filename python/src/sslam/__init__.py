@@ -16,16 +16,19 @@ metres up to the scale that one camera leaves open.
 from ._data import Dataset, evaluate, open_dataset, read_trajectory, write_trajectory
 from ._errors import Error, FinishedError, SettingsError, SslamWarning
 from ._kernels import (
+    bundle_adjust,
     manhattan_rotation,
     refine_pose,
     relative_pose,
     translation_from_rotation,
+    triangulate_lines,
     triangulate_points,
 )
 from ._map import Map, load_map
 from ._sslam import Camera, Evaluation, Reason, RelativeError, Result, State, Statistics, Status, __version__
 from ._system import EVENTS, System, parameters, presets
 from ._types import (
+    BundleAdjustment,
     Frame,
     Latest,
     Lines,
@@ -38,10 +41,12 @@ from ._types import (
     RelativePose,
     Trajectory,
     Translation,
+    TriangulatedLines,
 )
 
 __all__ = [
     "EVENTS",
+    "BundleAdjustment",
     "Camera",
     "Dataset",
     "Error",
@@ -69,7 +74,9 @@ __all__ = [
     "System",
     "Trajectory",
     "Translation",
+    "TriangulatedLines",
     "__version__",
+    "bundle_adjust",
     "evaluate",
     "load_map",
     "manhattan_rotation",
@@ -80,6 +87,7 @@ __all__ = [
     "refine_pose",
     "relative_pose",
     "translation_from_rotation",
+    "triangulate_lines",
     "triangulate_points",
     "write_trajectory",
 ]

@@ -166,6 +166,12 @@ class Result:
         """
 
     @property
+    def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        (6, 6), of xi in pose @ Exp(xi), in the camera's axes: rotation first, rad^2, then the place, units of the map squared. The map counts as exact. None where the pose was not refined against the map: where there is none, or it began the map, or the preset is 'odometry'
+        """
+
+    @property
     def index(self) -> int:
         """number of the frame, from 0"""
 
@@ -305,9 +311,13 @@ def relative_pose(pixels0: Annotated[NDArray[numpy.float64], dict(order='C', dev
 
 def translation_from_rotation(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Camera, arg4: float, arg5: float, arg6: int, /) -> tuple[Any, ...]: ...
 
+def refine_pose(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg4: Camera, arg5: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg6: float, /) -> tuple[Any, ...]: ...
+
 def triangulate_points(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Camera, arg3: float, arg4: float, /) -> tuple[Any, ...]: ...
 
-def refine_pose(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg4: Camera, arg5: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg6: float, /) -> tuple[Any, ...]: ...
+def triangulate_lines(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Camera, arg4: float, arg5: float, /) -> tuple[Any, ...]: ...
+
+def bundle_adjust(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg4: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg5: Camera, arg6: Annotated[NDArray[numpy.bool_], dict(order='C', device='cpu', writable=False)], arg7: float, arg8: int, /) -> tuple[Any, ...]: ...
 
 class Recording:
     @property

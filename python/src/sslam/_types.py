@@ -150,6 +150,36 @@ class Points(NamedTuple):
     """(N,), largest reprojection error of a view, standard deviations"""
 
 
+class TriangulatedLines(NamedTuple):
+    status: NDArray[np.uint8]
+    """(N,), values of sslam.Status: ends[status == sslam.Status.OK] are those to be used"""
+    ends: Floats
+    """(N, 2, 3), world: of all that the views show of each line"""
+    covariance: Floats
+    """(N, 3, 3), of the middle, across the line"""
+    parallax: Floats
+    """(N,), radians: largest angle between two of the planes through a camera and its segment"""
+    max_error: Floats
+    """(N,), largest distance of a segment's end from the line in its image, standard deviations"""
+    overlap: Floats
+    """(N,), what all views show, over the shortest stretch that one of them shows"""
+
+
+class BundleAdjustment(NamedTuple):
+    status: Status
+    """OK and NOT_CONVERGED: what follows is the better state; else it is as it was given"""
+    poses: Floats
+    """(V, 4, 4), camera to world"""
+    points: Floats
+    """(N, 3), world"""
+    lines: Floats
+    """(M, 2, 3), world: the points of each line nearest to those that were given"""
+    initial_cost: float
+    """half the sum of the robust squared errors, in standard deviations"""
+    final_cost: float
+    iterations: int
+
+
 class RefinedPose(NamedTuple):
     status: Status
     pose: Floats

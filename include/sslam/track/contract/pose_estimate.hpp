@@ -11,6 +11,7 @@ struct PoseEstimate {
   Reason reason = Reason::kTooFewMatches;  // kFine: the pose may be used
   int point_inliers = 0;
   int line_inliers = 0;
+  Mat6<S> covariance = Mat6<S>::Zero();  // as in TrackResult; zero: not all six freedoms were solved for
 
   [[nodiscard]] bool ok() const noexcept { return reason == Reason::kFine; }
 };

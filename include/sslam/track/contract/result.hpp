@@ -72,7 +72,11 @@ struct TrackResult {
   State state = State::kInitialising;
   Reason reason = Reason::kFine;
   SE3<S> cam_from_world;  // meaningful where has_pose()
-  int world = 0;          // that the pose is in: each map that is begun has its own, until maps are joined
+  // Of xi = (phi, rho) in exp(xi) * cam_from_world, in the camera's axes: rotation first, rad^2, then the
+  // place, units of the map squared. The map counts as exact: its drift is not in it. Meaningful where
+  // has_covariance().
+  Mat6<S> covariance = Mat6<S>::Zero();
+  int world = 0;  // that the pose is in: each map that is begun has its own, until maps are joined
   int point_inliers = 0;
   int line_inliers = 0;
   int axes_seen = 0;         // Manhattan axes with support: 3, 2, 1 or 0
@@ -85,6 +89,8 @@ struct TrackResult {
   [[nodiscard]] bool has_pose() const noexcept {
     return state == State::kManhattan || state == State::kFallback;
   }
+  // The pose was refined against the map. One that began the map was not, nor are those of NoRefinement.
+  [[nodiscard]] bool has_covariance() const noexcept { return covariance(0, 0) > 0; }
 };
 
 }  // namespace sslam

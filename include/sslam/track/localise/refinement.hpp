@@ -121,7 +121,11 @@ static_assert(RefinementStage<LocalMapRefinement<double>, double>);
 template <Scalar S>
 struct NoRefinement {
   [[nodiscard]] PoseEstimate<S> refine(Map<S>&, const RotationPrior<S>*, TrackedFrame<S>& frame) {
-    return {Reason::kFine, count_held(frame.point_landmarks), count_held(frame.line_landmarks)};
+    PoseEstimate<S> taken;
+    taken.reason = Reason::kFine;
+    taken.point_inliers = count_held(frame.point_landmarks);
+    taken.line_inliers = count_held(frame.line_landmarks);
+    return taken;
   }
 };
 static_assert(RefinementStage<NoRefinement<double>, double>);

@@ -48,6 +48,7 @@ template <Scalar S, int D>
   if (!(spread(D - 3) < acceptance.max_position_sigma * matches.median_depth(cam_from_world)))
     return estimate;
   if (D == 6 && !(spread(0) < acceptance.max_rotation_sigma)) return estimate;
+  if constexpr (D == 6) estimate.covariance = covariance;
   estimate.reason = Reason::kFine;
   return estimate;
 }
