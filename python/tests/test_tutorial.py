@@ -48,9 +48,18 @@ class Documents(unittest.TestCase):
         self.assertEqual(missing, [])
 
     def test_import_loads_no_more_than_it_needs(self):
-        code = "import sys, sslam; print(sorted(m for m in ('cv2', 'matplotlib', 'scipy', 'torch') if m in sys.modules))"
-        out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-        self.assertEqual(out.stdout.strip(), "[]")
+        def loaded(code, *modules):
+            code = f"import sys, sslam\n{code}\nprint([m for m in {modules} if m in sys.modules])"
+            return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
+
+        self.assertEqual(loaded("", "numpy", "sslam._sslam"), "[]")
+        self.assertEqual(loaded("sslam.System", "cv2", "matplotlib", "open3d", "rerun", "scipy", "torch"), "[]")
+
+    def test_names_are_there_from_the_start(self):
+        code = "import sslam; assert {*sslam.__all__} <= {*dir(sslam)}; from sslam import *; System, to_open3d, __version__"
+        subprocess.run([sys.executable, "-c", code], check=True)
+        with self.assertRaisesRegex(AttributeError, "'sslam' has no attribute 'sytem'"):
+            sslam.sytem
 
     def test_the_stubs_have_what_the_module_has(self):
         stub = {}

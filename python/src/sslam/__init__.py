@@ -13,81 +13,25 @@ Poses are 4x4 matrices, camera to world; the camera looks along z, x is right an
 metres up to the scale that one camera leaves open.
 """
 
-from ._data import Dataset, evaluate, open_dataset, read_trajectory, write_trajectory
-from ._errors import Error, FinishedError, SettingsError, SslamWarning
-from ._kernels import (
-    bundle_adjust,
-    manhattan_rotation,
-    refine_pose,
-    relative_pose,
-    translation_from_rotation,
-    triangulate_lines,
-    triangulate_points,
-)
-from ._map import Map, load_map
-from ._sslam import Camera, Evaluation, Reason, RelativeError, Result, State, Statistics, Status, __version__
-from ._system import EVENTS, System, parameters, presets
-from ._types import (
-    BundleAdjustment,
-    Frame,
-    Latest,
-    Lines,
-    ManhattanRotation,
-    Parameter,
-    Planes,
-    Points,
-    Preset,
-    RefinedPose,
-    RelativePose,
-    Trajectory,
-    Translation,
-    TriangulatedLines,
-)
+import importlib
+from typing import TYPE_CHECKING, Any, List
 
-__all__ = [
-    "EVENTS",
-    "BundleAdjustment",
-    "Camera",
-    "Dataset",
-    "Error",
-    "Evaluation",
-    "FinishedError",
-    "Frame",
-    "Latest",
-    "Lines",
-    "ManhattanRotation",
-    "Map",
-    "Parameter",
-    "Planes",
-    "Points",
-    "Preset",
-    "Reason",
-    "RefinedPose",
-    "RelativeError",
-    "RelativePose",
-    "Result",
-    "SettingsError",
-    "SslamWarning",
-    "State",
-    "Statistics",
-    "Status",
-    "System",
-    "Trajectory",
-    "Translation",
-    "TriangulatedLines",
-    "__version__",
-    "bundle_adjust",
-    "evaluate",
-    "load_map",
-    "manhattan_rotation",
-    "open_dataset",
-    "parameters",
-    "presets",
-    "read_trajectory",
-    "refine_pose",
-    "relative_pose",
-    "translation_from_rotation",
-    "triangulate_lines",
-    "triangulate_points",
-    "write_trajectory",
-]
+if TYPE_CHECKING:
+    from ._public import *  # noqa: F403
+    from ._public import __all__ as __all__
+
+
+def __getattr__(name: str) -> Any:
+    """Called for what is not here yet. OpenCV's libraries take a while to load: they come when something is used."""
+    here = globals()
+    if name in ("__all__", "__version__") or not name.startswith("_"):
+        public = importlib.import_module("._public", __name__)
+        here["__all__"] = public.__all__
+        here.update({offered: getattr(public, offered) for offered in public.__all__})
+    if name not in here:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return here[name]
+
+
+def __dir__() -> List[str]:
+    return sorted({*globals(), *__getattr__("__all__")})

@@ -1,0 +1,100 @@
+"""A run for the viewers of other packages, read back with these packages where they are installed."""
+
+import importlib.util
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import sslam
+from room import ROOM, needs_room, run
+
+
+def needs(module):
+    return unittest.skipUnless(importlib.util.find_spec(module), f"skipped: no {module}")
+
+
+@needs_room
+class Viewers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.scratch.cleanup)
+        cls.folder = pathlib.Path(cls.scratch.name) / "run"
+        run("run", ROOM, "--end", 40, "--normals", "none", "--no-report", "--out", cls.folder)
+        cls.map = sslam.load_map(cls.folder / "map.sslam")
+        cls.trajectory = sslam.read_trajectory(cls.folder)
+
+    @needs("rerun")
+    def test_a_recording_of_rerun_holds_the_run(self):
+        from rerun.chunk import RrdReader
+
+        path = self.folder / "run.rrd"
+        sslam.to_rerun(self.folder, path)
+        rows = {}
+        for chunk in RrdReader(path).stream():
+            batch = chunk.to_record_batch()
+            for name in batch.schema.names:
+                rows.setdefault((chunk.entity_path, name), []).extend(batch.column(name))
+
+        def numbers(entity, component):
+            return [np.array(row.as_py(), np.float64) for row in rows[entity, component]]
+
+        (points,) = numbers("/world/points", "Points3D:positions")
+        np.testing.assert_allclose(points, self.map.points(), atol=1e-5)
+        (colours,) = numbers("/world/points", "Points3D:colors")
+        self.assertEqual(len(colours), len(points))
+        self.assertGreater(len(set(colours)), len(points) / 4)
+        (lines,) = numbers("/world/lines", "LineStrips3D:strips")
+        np.testing.assert_allclose(lines, self.map.lines().ends, atol=1e-5)
+        (path_seen,) = numbers("/world/path", "LineStrips3D:strips")
+        np.testing.assert_allclose(path_seen[0], self.trajectory.positions, atol=1e-5)
+        places = np.stack(numbers("/world/camera", "Transform3D:translation")).reshape(-1, 3)
+        np.testing.assert_allclose(places, self.trajectory.positions, atol=1e-5)
+        turns = np.stack(numbers("/world/camera", "Transform3D:mat3x3")).reshape(-1, 3, 3)  # by columns
+        np.testing.assert_allclose(turns.transpose(0, 2, 1), self.trajectory.poses[:, :3, :3], atol=1e-5)
+        times = [row.value for row in rows["/world/camera", "time"]]
+        np.testing.assert_allclose(np.array(times) / 1e9, self.trajectory.stamps, atol=1e-6)
+        images = rows["/world/camera/image", "EncodedImage:blob"]
+        self.assertEqual(len(images), 40)
+        self.assertTrue(bytes(images[0].as_py()[0]).startswith(b"\xff\xd8"))
+
+    @needs("open3d")
+    def test_geometries_of_open3d_hold_the_run(self):
+        scene = sslam.to_open3d(self.folder)
+        np.testing.assert_allclose(np.asarray(scene.points.points), self.map.points(), atol=1e-5)
+        colours = np.asarray(scene.points.colors)
+        self.assertTrue(((0 <= colours) & (colours <= 1)).all())
+        self.assertGreater(len(np.unique(colours, axis=0)), len(colours) / 4)
+        ends = np.asarray(scene.lines.points)[np.asarray(scene.lines.lines)]
+        np.testing.assert_allclose(ends, self.map.lines().ends, atol=1e-5)
+        self.assertEqual(len(scene.lines.colors), len(ends))
+        np.testing.assert_allclose(np.asarray(scene.path.points), self.trajectory.positions)
+        self.assertEqual(len(scene.path.lines), len(self.trajectory.stamps) - 1)
+
+    def test_packages_are_imported_late_and_named_where_they_are_missing(self):
+        late = "import sys, sslam; sys.exit(any(name in sys.modules for name in ('rerun', 'open3d')))"
+        self.assertEqual(subprocess.run([sys.executable, "-c", late]).returncode, 0)
+        hidden = f"import sys; sys.modules['open3d'] = None; import sslam; sslam.to_open3d({str(self.folder)!r})"
+        done = subprocess.run([sys.executable, "-c", hidden], capture_output=True, text=True)
+        self.assertIn("ImportError: open3d: is not installed; pip install open3d", done.stderr)
+
+    def test_what_is_no_run_is_refused_by_its_name(self):
+        empty = pathlib.Path(self.scratch.name) / "empty"
+        empty.mkdir()
+        for write in (sslam.to_open3d, lambda folder: sslam.to_rerun(folder, empty / "out.rrd")):
+            with self.assertRaisesRegex(sslam.Error, f"{empty}: has no frames.csv"):
+                write(empty)
+        (empty / "frames.csv").write_text("index\n")
+        (empty / "map.ply").write_text("ply\nelement vertex 3\nend_header\n0 0 0\n")
+        with self.assertRaisesRegex(sslam.Error, "map.ply: is no map.ply of"):
+            sslam.to_open3d(empty)
+        with self.assertRaisesRegex(TypeError, "run: expected a path"):
+            sslam.to_open3d(5)
+
+
+if __name__ == "__main__":
+    unittest.main()
