@@ -8,15 +8,15 @@ import json
 import os
 import pathlib
 import warnings
-from typing import Any, Dict, Iterator, List, NamedTuple, Tuple, Union
+from typing import Any, Dict, Iterator, List, NamedTuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _check
-from ._data import Frame, _tell, open_dataset, read_trajectory
+from ._data import _tell, open_dataset, read_trajectory
 from ._errors import Error
-from ._types import Floats, Trajectory
+from ._types import Floats, Frame, Trajectory
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -166,7 +166,7 @@ def to_open3d(run: Path) -> Open3dScene:
     o3d = _package("open3d", "open3d")
     cloud = source.cloud
 
-    def line_set(places: Floats, pairs: NDArray[np.int32], colours: Tuple[Any, ...]) -> Any:
+    def line_set(places: Floats, pairs: NDArray[np.int32], colours: Any) -> Any:
         lines = o3d.geometry.LineSet(o3d.utility.Vector3dVector(places), o3d.utility.Vector2iVector(pairs))
         lines.colors = o3d.utility.Vector3dVector(np.array(np.broadcast_to(colours, (len(pairs), 3))))
         return lines
