@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/results/dense_walls.hpp"
+#include "cli/results/floor_plan.hpp"
 #include "cli/results/folder_lock.hpp"
 #include "cli/results/keyframe_images.hpp"
+#include "cli/results/map_glb.hpp"
 #include "cli/results/map_ply.hpp"
 #include "cli/results/mcap_export.hpp"
 #include "cli/results/nerfstudio.hpp"
@@ -115,11 +118,41 @@ std::string export_nerfstudio(const RunFolder& run, const fs::path& stage, const
          std::to_string(counts.points) + " points)";
 }
 
+// The model of --dense as it is, else the sparse map.
+std::string export_glb(const ExportSettings& settings, const RunFolder& run, const fs::path& stage) {
+  const fs::path model = fs::path(settings.run) / kModelFile;
+  if (fs::exists(model)) {
+    fs::copy_file(model, stage / kModelFile);
+    return std::string(kModelFile) + " (of --dense)";
+  }
+  const GlbCounts counts = write_map_glb(stage / kModelFile, run.map, run.colours);
+  return std::string(kModelFile) + " (" + std::to_string(counts.points) + " points, " +
+         std::to_string(counts.lines) + " lines, " + std::to_string(counts.planes) + " planes)";
+}
+
+std::string export_floor_plan(const ExportSettings& settings, const RunFolder& run, const fs::path& stage) {
+  constexpr double kUpright = 0.7;  // length of the mean of unit vectors
+  if (mean_down(run.map).norm() < kUpright)
+    print_note("the camera was turned about its line of sight: the plan may not be seen from above");
+  FloorPlan plan = make_floor_plan(run.map, run.trajectory);
+  if (auto walls = dense_walls(settings.run, run, plan_from_world(run.map)); !walls.empty())
+    plan.walls = std::move(walls);
+  if (plan.walls.empty())
+    print_note(
+        "the map has no upright planes: the plan shows its lines and points without walls; a run with "
+        "--dense finds more");
+  write_floor_plan(stage / "floorplan.svg", plan, run.name, is_metric(run.metrics) ? "m" : "map units");
+  return "floorplan.svg (" + std::to_string(plan.walls.size()) + " walls, " +
+         std::to_string(plan.lines.size() + plan.uprights.size()) + " lines)";
+}
+
 std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
                        const fs::path& out) {
   if (settings.format == "colmap" || settings.format == "nerfstudio") warn_of_wide_lens(run);
   if (settings.format == "colmap") return export_colmap(run, stage);
   if (settings.format == "nerfstudio") return export_nerfstudio(run, stage, out);
+  if (settings.format == "glb") return export_glb(settings, run, stage);
+  if (settings.format == "floorplan") return export_floor_plan(settings, run, stage);
   if (settings.format == "mcap") {
     const McapCounts counts = write_mcap_export(stage / "run.mcap", run);
     return "run.mcap (" + std::to_string(counts.poses) + " poses, " + std::to_string(counts.points) +
@@ -158,11 +191,11 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("--format", s->format,
                    "tum, kitti: the trajectory; ply: points and lines; colmap: a model of the keyframes "
-                   "with their points; nerfstudio: transforms.json and points; mcap: all of it as a "
-                   "recording of ROS 2, "
+                   "with their points; nerfstudio: transforms.json and points; glb: a 3D model for viewers; "
+                   "floorplan: walls and the path from above; mcap: all of it as a recording of ROS 2, "
                    "for Foxglove and RViz")
       ->required()
-      ->check(CLI::IsMember({"colmap", "kitti", "mcap", "nerfstudio", "ply", "tum"}));
+      ->check(CLI::IsMember({"colmap", "floorplan", "glb", "kitti", "mcap", "nerfstudio", "ply", "tum"}));
   command
       ->add_option("-o,--out", s->out, "Folder for the files; default one of the format's name in the run's")
       ->type_name("DIR");

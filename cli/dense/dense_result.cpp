@@ -46,7 +46,7 @@ class DenseRun {
     WallTimer timer;
     timer.begin();
     DenseResult result;
-    result.up = up();
+    result.up = up_direction(map_);
     gather(result);
     const double depth = dense::median_depth(map_);
     const dense::DenseOptions options;
@@ -98,16 +98,6 @@ class DenseRun {
     const TextureInput input{result.model, views_, depth / camera_.pinhole.fx,
                              [this](std::size_t v) { return straight_image(*packed_[v]); }, 1 / scale_};
     result.atlas = make_atlas(input);
-  }
-
-  // The axis of the first Manhattan frame that is nearest to the cameras' up, else that itself.
-  [[nodiscard]] Vec3<double> up() const {
-    const Vec3<double> down = mean_down(map_);
-    if (!(down.norm() > 1e-9)) return -Vec3<double>::UnitY();
-    const std::span<const SO3<double>> frames = map_.world_from_manhattan;
-    const Vec3<double> axis = vertical_axis<double>(frames.first(std::min<std::size_t>(frames.size(), 1)),
-                                                    down.normalized(), radians(30.0));
-    return axis.isZero() ? Vec3<double>(-down.normalized()) : Vec3<double>(-axis);
   }
 
   const Map<double>& map_;

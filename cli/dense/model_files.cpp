@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/dense/model_files.hpp"
 
-#include <Eigen/Geometry>
-#include <bit>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -10,19 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "cli/results/gltf_file.hpp"
 #include "sslam/io/files/output_file.hpp"
-#include "sslam/version.hpp"
 
 namespace sslam::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-void put(std::string& bytes, T value) {
-  static_assert(std::endian::native == std::endian::little);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 struct Mesh {
   std::vector<Vec3<float>> places, normals;
@@ -53,74 +45,32 @@ Mesh mesh_of(const dense::DenseModel& model, const Atlas& atlas) {
   return mesh;
 }
 
-// The parts of a glTF buffer, each from a multiple of four on.
-class Buffer {
- public:
-  std::string bytes;
-  Json views = Json::array();
-
-  std::size_t add(const std::string& part, int target) {
-    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
-    Json view = {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", part.size()}};
-    if (target != 0) view["target"] = target;
-    bytes += part;
-    views.push_back(view);
-    return views.size() - 1;
-  }
-};
-
-template <class Vector>
-std::string packed(const std::vector<Vector>& vectors) {
-  std::string bytes;
-  for (const Vector& v : vectors)
-    for (const float x : v) put(bytes, x);
-  return bytes;
-}
-
-// The turn from the map to glTF's world, y up, as x, y, z, w.
-std::array<double, 4> turn_of(const Vec3<double>& up) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(up, Vec3<double>::UnitY());
-  return {q.x(), q.y(), q.z(), q.w()};
-}
-
 }  // namespace
 
 void write_glb(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
                const Vec3<double>& up) {
-  constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963, kFloat = 5126, kUnsigned = 5125;  // glTF's names
+  using namespace gltf_names;
   constexpr int kQuality = 92;
   const Mesh mesh = mesh_of(model, atlas);
-  Vec3<float> low = Vec3<float>::Zero(), high = low;
-  if (!mesh.places.empty()) low = high = mesh.places.front();
-  for (const Vec3<float>& x : mesh.places) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
   std::string indices;
-  for (const std::uint32_t i : mesh.indices) put(indices, i);
+  for (const std::uint32_t i : mesh.indices) append_bytes(indices, i);
   std::vector<unsigned char> jpeg;
   cv::imencode(".jpg", atlas.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  Buffer buffer;
-  const std::size_t places = buffer.add(packed(mesh.places), kArrayBuffer),
-                    normals = buffer.add(packed(mesh.normals), kArrayBuffer),
-                    textures = buffer.add(packed(mesh.textures), kArrayBuffer),
+  GltfBuffer buffer;
+  const std::size_t places = buffer.add(bytes_of(mesh.places), kArrayBuffer),
+                    normals = buffer.add(bytes_of(mesh.normals), kArrayBuffer),
+                    textures = buffer.add(bytes_of(mesh.textures), kArrayBuffer),
                     triangles = buffer.add(indices, kIndexBuffer),
                     image = buffer.add({jpeg.begin(), jpeg.end()}, 0);
   const std::size_t vertices = mesh.places.size();
   const Json accessors = {
-      {{"bufferView", places},
-       {"componentType", kFloat},
-       {"count", vertices},
-       {"type", "VEC3"},
-       {"min", {low.x(), low.y(), low.z()}},
-       {"max", {high.x(), high.y(), high.z()}}},
+      places_accessor(places, mesh.places),
       {{"bufferView", normals}, {"componentType", kFloat}, {"count", vertices}, {"type", "VEC3"}},
       {{"bufferView", textures}, {"componentType", kFloat}, {"count", vertices}, {"type", "VEC2"}},
       {{"bufferView", triangles},
        {"componentType", kUnsigned},
        {"count", mesh.indices.size()},
        {"type", "SCALAR"}}};
-  buffer.bytes.resize((buffer.bytes.size() + 3) / 4 * 4, '\0');
   const Json primitive = {
       {"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}, {"indices", 3}, {"material", 0}};
   const Json material = {
@@ -129,32 +79,13 @@ void write_glb(const std::filesystem::path& path, const dense::DenseModel& model
        {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
       {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
   const auto list = [](Json element) { return Json::array({std::move(element)}); };
-  const Json gltf = {{"asset", {{"version", "2.0"}, {"generator", std::string("sslam ") + SSLAM_VERSION}}},
-                     {"extensionsUsed", {"KHR_materials_unlit"}},
-                     {"scene", 0},
-                     {"scenes", list({{"nodes", {0}}})},
-                     {"nodes", list({{"mesh", 0}, {"name", "model"}, {"rotation", turn_of(up)}})},
-                     {"meshes", list({{"primitives", list(primitive)}})},
-                     {"materials", list(material)},
-                     {"textures", list({{"source", 0}})},
-                     {"images", list({{"bufferView", image}, {"mimeType", "image/jpeg"}})},
-                     {"accessors", accessors},
-                     {"bufferViews", buffer.views},
-                     {"buffers", list({{"byteLength", buffer.bytes.size()}})}};
-  std::string json = gltf.dump();
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string head;
-  put(head, std::uint32_t{0x46546C67});  // "glTF"
-  put(head, std::uint32_t{2});
-  put(head, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.bytes.size()));
-  put(head, static_cast<std::uint32_t>(json.size()));
-  put(head, std::uint32_t{0x4E4F534A});  // "JSON"
-  std::string second;
-  put(second, static_cast<std::uint32_t>(buffer.bytes.size()));
-  put(second, std::uint32_t{0x004E4942});  // "BIN"
-  io::OutputFile file(path);
-  file.stream() << head << json << second << buffer.bytes;
-  file.commit();
+  Json gltf = {{"nodes", list({{"mesh", 0}, {"name", "model"}, {"rotation", turn_to_gltf(up)}})},
+               {"meshes", list({{"primitives", list(primitive)}})},
+               {"materials", list(material)},
+               {"textures", list({{"source", 0}})},
+               {"images", list({{"bufferView", image}, {"mimeType", "image/jpeg"}})},
+               {"accessors", accessors}};
+  write_gltf(path, std::move(gltf), buffer);
 }
 
 void write_model_ply(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas) {
@@ -169,11 +100,11 @@ void write_model_ply(const std::filesystem::path& path, const dense::DenseModel&
       std::int64_t& id = ids[static_cast<std::size_t>(r * (cells.columns + 1) + c)];
       if (id >= 0) return static_cast<std::int32_t>(id);
       const Vec2<double> u = cells.corner(c, r), pixel = atlas.pixel(chart, u);
-      for (const float x : Vec3<float>(cells.place(u).cast<float>())) put(vertices, x);
+      for (const float x : Vec3<float>(cells.place(u).cast<float>())) append_bytes(vertices, x);
       const cv::Vec3b& colour =
           atlas.image(std::clamp(static_cast<int>(std::lround(pixel.y())), 0, atlas.image.rows - 1),
                       std::clamp(static_cast<int>(std::lround(pixel.x())), 0, atlas.image.cols - 1));
-      for (const int channel : {2, 1, 0}) put(vertices, colour[channel]);
+      for (const int channel : {2, 1, 0}) append_bytes(vertices, colour[channel]);
       id = vertex_count++;
       return static_cast<std::int32_t>(id);
     };
@@ -184,8 +115,8 @@ void write_model_ply(const std::filesystem::path& path, const dense::DenseModel&
         std::array<std::int32_t, 4> ring{vertex(c, r), vertex(c + 1, r), vertex(c + 1, r + 1),
                                          vertex(c, r + 1)};
         if (plane.seen_from < 0) std::swap(ring[1], ring[3]);
-        put(faces, std::uint8_t{4});
-        for (const std::int32_t id : ring) put(faces, id);
+        append_bytes(faces, std::uint8_t{4});
+        for (const std::int32_t id : ring) append_bytes(faces, id);
         ++face_count;
       }
   }

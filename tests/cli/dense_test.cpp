@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `sslam run --dense` on a rendered room: the files of the model.
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/glb_file.hpp"
 #include "cli/room_copy.hpp"
 #include "support/catch.hpp"
 
@@ -15,38 +14,6 @@ namespace dense_test {
 
 namespace fs = std::filesystem;
 using namespace sslam::testing;
-
-std::uint32_t word_at(const std::string& bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + at, sizeof word);
-  return word;
-}
-
-struct Glb {
-  nlohmann::json json;
-  std::string binary;
-};
-
-// Of glTF 2.0's container: a head, a chunk of JSON, a chunk of bytes.
-Glb read_glb(const fs::path& file) {
-  const std::string bytes = text_of(file);
-  REQUIRE(bytes.size() > 20);
-  REQUIRE(bytes.substr(0, 4) == "glTF");
-  REQUIRE(word_at(bytes, 4) == 2);
-  REQUIRE(word_at(bytes, 8) == bytes.size());
-  const std::size_t json_size = word_at(bytes, 12);
-  REQUIRE(bytes.substr(16, 4) == "JSON");
-  REQUIRE(json_size % 4 == 0);
-  const std::size_t second = 20 + json_size;
-  REQUIRE(word_at(bytes, second) == bytes.size() - second - 8);
-  REQUIRE(bytes.substr(second + 4, 4) == std::string("BIN\0", 4));
-  return {nlohmann::json::parse(bytes.substr(20, json_size)), bytes.substr(second + 8)};
-}
-
-std::string part(const Glb& glb, std::size_t view) {
-  const auto& v = glb.json["bufferViews"][view];
-  return glb.binary.substr(v["byteOffset"], v["byteLength"]);
-}
 
 TEST_CASE("run --dense writes a model that viewers can open, and a run without it takes the model away") {
   const RoomCopy copy;
@@ -74,6 +41,15 @@ TEST_CASE("run --dense writes a model that viewers can open, and a run without i
   const cv::Mat atlas = cv::imdecode(std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
   REQUIRE(atlas.cols == metrics["dense"]["texture_size"][0]);
   REQUIRE(atlas.rows == metrics["dense"]["texture_size"][1]);
+
+  REQUIRE(run_program("export " + copy.out.string() + " --format glb").code == 0);
+  REQUIRE(text_of(copy.out / "glb/model.glb") == text_of(copy.out / "model.glb"));
+  const Outcome plan = run_program("export " + copy.out.string() + " --format floorplan");
+  INFO(plan.text);
+  REQUIRE(plan.code == 0);
+  const std::size_t walls = plan.text.find("floorplan.svg (");
+  REQUIRE(walls != std::string::npos);
+  CHECK(std::stoi(plan.text.substr(walls + 15)) >= 2);
 
   const std::string ply = text_of(copy.out / "model.ply");
   REQUIRE(ply.rfind("ply\nformat binary_little_endian 1.0\n", 0) == 0);

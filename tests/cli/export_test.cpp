@@ -8,12 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "cli/glb_file.hpp"
+#include "cli/results/floor_plan.hpp"
+#include "cli/results/map_glb.hpp"
 #include "cli/room_copy.hpp"
 #include "sslam/geometry/se3.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "support/catch.hpp"
 #include "support/colmap_model.hpp"
+#include "support/map_scene.hpp"
 
 namespace export_test {
 
@@ -24,6 +28,18 @@ namespace {
 
 Outcome export_run(const fs::path& run, const std::string& options) {
   return run_program("export " + run.string() + " " + options);
+}
+
+// Of a part of a mesh, each with a place and a colour.
+std::size_t vertices_of(const Glb& glb, const nlohmann::json& primitive) {
+  const auto& accessors = glb.json["accessors"];
+  const auto& places = accessors[primitive["attributes"]["POSITION"].get<std::size_t>()];
+  const auto& colours = accessors[primitive["attributes"]["COLOR_0"].get<std::size_t>()];
+  const std::size_t count = places["count"];
+  REQUIRE(part(glb, places["bufferView"]).size() == 12 * count);
+  REQUIRE(part(glb, colours["bufferView"]).size() == 4 * count);
+  REQUIRE(colours["count"] == count);
+  return count;
 }
 
 // One run for the tests that only read it.
@@ -223,6 +239,84 @@ TEST_CASE("export writes the map that the run wrote") {
   const RoomCopy& room = tracked_room();
   REQUIRE(export_run(room.out, "--format ply").code == 0);
   REQUIRE(text_of(room.out / "ply/map.ply") == text_of(room.out / "map.ply"));
+}
+
+TEST_CASE("export writes the sparse map as a model that viewers can open") {
+  const RoomCopy& room = tracked_room();
+  const Outcome outcome = export_run(room.out, "--format glb");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const Glb glb = read_glb(room.out / "glb/model.glb");
+  const auto& primitives = glb.json["meshes"][0]["primitives"];
+  const auto metrics = room.metrics();
+  CHECK(primitives[0]["mode"] == 0);
+  CHECK(primitives[1]["mode"] == 1);
+  CHECK(vertices_of(glb, primitives[0]) == metrics["points"]);
+  CHECK(vertices_of(glb, primitives[1]) == 2 * metrics["lines"].get<std::size_t>());
+  const std::size_t places = primitives[0]["attributes"]["POSITION"];
+  const std::string bytes = part(glb, glb.json["accessors"][places]["bufferView"]);
+  float first = 0;
+  std::memcpy(&first, bytes.data(), sizeof first);
+  const auto ply = lines_of(room.out / "map.ply");
+  const auto head = std::find(ply.begin(), ply.end(), "end_header");
+  REQUIRE(head != ply.end());
+  CHECK(first == Approx(numbers_of(*(head + 1)).at(0)).margin(1e-5));
+}
+
+TEST_CASE("A model of a sparse map has its planes as sheets, and stands upright") {
+  MapScene scene({}, sweep(4));
+  sslam::Map<double> map = scene.make_landmarks();
+  scene.add_planes(map);
+  const ScratchFolder scratch;
+  const sslam::cli::GlbCounts counts = sslam::cli::write_map_glb(scratch.path() / "map.glb", map, {});
+  CHECK(counts.points == 600);
+  CHECK(counts.lines == 80);
+  REQUIRE(counts.planes == 6);
+  const Glb glb = read_glb(scratch.path() / "map.glb");
+  const auto& sheets = glb.json["meshes"][0]["primitives"][2];
+  CHECK(sheets["mode"] == 4);
+  REQUIRE(vertices_of(glb, sheets) == 24);
+  const auto& indices = glb.json["accessors"][sheets["indices"].get<std::size_t>()];
+  CHECK(indices["count"] == 36);
+  const std::string triangles = part(glb, indices["bufferView"]);
+  for (std::size_t i = 0; i < triangles.size(); i += 4) CHECK(word_at(triangles, i) < 24);
+  const auto& q = glb.json["nodes"][0]["rotation"];
+  const Eigen::Quaterniond turn(q[3].get<double>(), q[0].get<double>(), q[1].get<double>(),
+                                q[2].get<double>());
+  CHECK((turn * -Eigen::Vector3d::UnitY()).y() == Approx(1));  // the map's y is down
+}
+
+TEST_CASE("A floor plan has the walls of a room, where they are and as long as they are") {
+  MapScene scene({}, sweep(4));  // 8 x 6 metres, y down
+  sslam::Map<double> map = scene.make_landmarks();
+  scene.add_planes(map);
+  const sslam::cli::FloorPlan plan = sslam::cli::make_floor_plan(map, {});
+  REQUIRE(plan.walls.size() == 4);
+  int along_x = 0;
+  for (const auto& wall : plan.walls) {
+    const bool x = std::abs(wall.start.x() - wall.end.x()) > 1;
+    along_x += x;
+    const double length = (wall.end - wall.start).norm();
+    CHECK(std::abs(x ? wall.start.y() : wall.start.x()) == Approx(x ? 3 : 4).margin(1e-6));
+    CHECK(length > (x ? 7 : 5));
+    CHECK(length < (x ? 8 : 6));
+  }
+  CHECK(along_x == 2);
+  CHECK(plan.points.size() == 600);
+  CHECK_FALSE(plan.lines.empty());
+  CHECK_FALSE(plan.uprights.empty());
+}
+
+TEST_CASE("export draws a floor plan") {
+  const RoomCopy& room = tracked_room();
+  const Outcome outcome = export_run(room.out, "--format floorplan");
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  const std::string svg = text_of(room.out / "floorplan/floorplan.svg");
+  CHECK(svg.find("<svg ") == 0);
+  CHECK(svg.find("[map units]") != std::string::npos);
+  CHECK(svg.find(">walls</text>") != std::string::npos);
+  CHECK(svg.find("nan") == std::string::npos);
 }
 
 TEST_CASE("export names the frames of a video, and those of an earlier run") {

@@ -41,4 +41,16 @@ template <Scalar S>
   return best;
 }
 
+// Where up is: the axis of the first Manhattan frame that is nearest to the cameras' own up, else that
+// itself; -y of the world, as the first camera had it, where they say nothing.
+template <Scalar S>
+[[nodiscard]] Vec3<S> up_direction(const Map<S>& map) {
+  const Vec3<S> down = mean_down(map);
+  if (!(down.norm() > S(1e-9))) return -Vec3<S>::UnitY();
+  const std::span<const SO3<S>> frames = map.world_from_manhattan;
+  const Vec3<S> axis =
+      vertical_axis<S>(frames.first(frames.empty() ? 0 : 1), down.normalized(), radians(S(30)));
+  return axis.isZero() ? Vec3<S>(-down.normalized()) : Vec3<S>(-axis);
+}
+
 }  // namespace sslam

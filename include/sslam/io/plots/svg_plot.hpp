@@ -60,6 +60,22 @@ inline void draw_legend(std::ostream& out, double x, const char* style, const ch
       << format("<text x=\"%.0f\" y=\"48\" font-size=\"13\">%s</text>\n", x + 32, text);
 }
 
+// The head of the page: its grid and title, and a group that is cut to the grid, which the caller closes.
+inline void begin_page(std::ostream& out, const View& view, std::string_view unit, std::string_view title) {
+  out << format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+             "font-family=\"sans-serif\">\n",
+             kWidth, kHeight)
+      << format(
+             "<clipPath id=\"page\"><rect x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" "
+             "height=\"%.0f\"/></clipPath>\n",
+             kLeft, kTop, kWidth - kLeft - kRight, kHeight - kTop - kBottom)
+      << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+  draw_grid(out, view, unit);
+  out << format("<text x=\"%.0f\" y=\"26\" font-size=\"16\">", kLeft) << escaped(title) << "</text>\n";
+  out << "<g clip-path=\"url(#page)\">\n";
+}
+
 }  // namespace svg
 
 // Throws Error when it cannot be written.
@@ -71,24 +87,11 @@ inline void write_top_view(const std::filesystem::path& path, const TopView& con
   const svg::View view = truth.empty() ? svg::fit(estimate, truth) : svg::fit(truth, estimate);
   OutputFile file(path);
   std::ostream& out = file.stream();
-  out << svg::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
-             "font-family=\"sans-serif\">\n",
-             svg::kWidth, svg::kHeight)
-      << svg::format(
-             "<clipPath id=\"page\"><rect x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" "
-             "height=\"%.0f\"/></clipPath>\n",
-             svg::kLeft, svg::kTop, svg::kWidth - svg::kLeft - svg::kRight,
-             svg::kHeight - svg::kTop - svg::kBottom)
-      << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
-  svg::draw_grid(out, view, content.unit);
-  out << "<g clip-path=\"url(#page)\">\n";
+  svg::begin_page(out, view, content.unit, content.title);
   svg::draw_points(out, view, content.points);
   svg::draw_path(out, view, content.truth, kTruthStyle, 0);
   svg::draw_path(out, view, content.estimate, kEstimateStyle, content.max_gap);
-  out << "</g>\n"
-      << svg::format("<text x=\"%.0f\" y=\"26\" font-size=\"16\">", svg::kLeft) << svg::escaped(content.title)
-      << "</text>\n";
+  out << "</g>\n";
   if (!truth.empty()) svg::draw_legend(out, svg::kLeft, kTruthStyle, "ground truth");
   if (!estimate.empty()) svg::draw_legend(out, svg::kLeft + 140, kEstimateStyle, "estimate");
   out << "</svg>\n";
