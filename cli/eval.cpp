@@ -13,6 +13,7 @@
 #include "cli/commands.hpp"
 #include "cli/results/eval_report.hpp"
 #include "cli/results/image_names.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/results/truth_source.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
@@ -75,6 +76,7 @@ struct Reference {
 
 Reference load_reference(const EvalSettings& settings) {
   Reference reference;
+  settle_results(settings.truth);
   reference.named = find_named_poses(settings.truth);
   if (!reference.named) reference.source = load_truth(settings.truth, settings.axes, settings.times);
   return reference;
@@ -83,6 +85,7 @@ Reference load_reference(const EvalSettings& settings) {
 // Throws Error when one has stamps and the other has none.
 io::Trajectory take_estimate(const std::string& file, const EvalSettings& settings, const TruthSource& truth,
                              io::Warnings& warnings) {
+  settle_results(file);
   io::PoseFile estimate = load_estimate(file, warnings, settings.times);
   if (estimate.counted != truth.counted) {
     throw Error(

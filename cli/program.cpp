@@ -8,12 +8,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
@@ -187,7 +189,18 @@ void demand_printed() {
   if (printed) return;
   // A write that failed earlier has left no reason: one more has it.
   if (errno == 0 && write(STDOUT_FILENO, "\n", 1) >= 0) errno = EIO;
+  if (errno == EPIPE) {  // as with `| head`: whoever read has seen enough, which is no error to tell
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
   throw Error(std::string("standard output: cannot write: ") + std::strerror(errno));
+}
+
+// A reader that has gone, or a limit of a file's size, must not end a run before its files are written: the
+// write fails, and that is told, or does not matter.
+void hear_of_failed_writes() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace
@@ -200,6 +213,7 @@ int sslam::run_program(int argc, char** argv) {
   if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
+    hear_of_failed_writes();
     end_with_parent();
     const int code = parse_and_run(argc, argv);
     if (code == static_cast<int>(ExitCode::kOk)) demand_printed();
@@ -211,6 +225,8 @@ int sslam::run_program(int argc, char** argv) {
     return static_cast<int>(ExitCode::kUsage);
   } catch (const cv::Exception& error) {  // its what() has several lines, and places in OpenCV's sources
     print_error("OpenCV could not do what it was asked to: " + error.err + " (in " + error.func + ")");
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory; take smaller images or fewer frames, or raise the limit (ulimit -v)");
   } catch (const std::exception& error) {
     print_error(error.what());
   }

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/results/folder_lock.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/worker_threads.hpp"
@@ -87,7 +89,7 @@ void run_synth(const SynthSettings& settings) {
 }  // namespace
 
 SynthReport synthesise(const SynthSettings& asked) {
-  SynthSettings settings = asked;
+  SynthSettings settings = asked;  // and its folder is the one beside, until all is written
   const bool plain =
       settings.house.world == synth::World::kManhattan || settings.house.world == synth::World::kTurned;
   if (settings.house.rooms == 3 && !(plain && settings.house.path == synth::PathKind::kLoop)) {
@@ -115,7 +117,11 @@ SynthReport synthesise(const SynthSettings& asked) {
         "longer than " +
         std::to_string(std::lround(settings.focal)));
   }
-  prepare_synth_folder(settings);
+  claim_synth_folder(asked.folder);
+  const FolderLock lock = FolderLock::demand(asked.folder);
+  ResultSet results(asked.folder);
+  settings.folder = results.stage().string();
+  prepare_image_folders(settings);
   const Interrupt interrupt;
   SynthReport report;
   const Clock::time_point start = Clock::now();
@@ -130,7 +136,10 @@ SynthReport synthesise(const SynthSettings& asked) {
     const double stamp = stamp_of(settings, i);
     truth.push_back({stamp, house.path.world_from_cam(stamp)});
   }
-  write_synth_lists(settings, camera, truth);
+  if (complete > 0) {
+    write_synth_lists(settings, camera, truth);
+    results.commit(kSynthParts);
+  }
   report.render_seconds = seconds_since(rendering);
   report.frames = static_cast<int>(complete);
   report.path_metres = length_of(truth);

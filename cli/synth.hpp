@@ -42,7 +42,9 @@ struct SynthReport {
   bool interrupted = false;
 };
 
-// Throws Error, in one line, when the folder cannot be written or holds another data set.
+// Takes the place of an earlier data set in the folder as a whole, once it is complete; interrupted before
+// its first image, it leaves that alone. Throws Error, in one line, when the folder cannot be written or
+// holds another data set.
 SynthReport synthesise(const SynthSettings& settings);
 
 }  // namespace sslam::cli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/batch/table_formats.hpp"
+#include "cli/results/result_set.hpp"
 #include "sslam/io/files/csv_writer.hpp"
 #include "sslam/io/files/output_file.hpp"
 
@@ -62,11 +63,14 @@ void write_runs(const fs::path& path, const Results& results) {
 }  // namespace
 
 void write_tables(const fs::path& folder, const Results& results, const ResultPage& page) {
-  io::write_text(folder / "tables.md", markdown_page(page));
-  io::write_text(folder / "tables.tex", latex_page(page));
-  io::write_text(folder / "tables.html", html_page(page));
-  for (const ResultTable& table : page.tables) write_table(folder / (table.file + ".csv"), table);
-  write_runs(folder / "runs.csv", results);
+  ResultSet tables(folder);
+  const fs::path& stage = tables.stage();
+  io::write_text(stage / "tables.md", markdown_page(page));
+  io::write_text(stage / "tables.tex", latex_page(page));
+  io::write_text(stage / "tables.html", html_page(page));
+  for (const ResultTable& table : page.tables) write_table(stage / (table.file + ".csv"), table);
+  write_runs(stage / "runs.csv", results);
+  tables.commit();
 }
 
 }  // namespace sslam::cli

@@ -26,12 +26,13 @@ constexpr const char* kObsolete = ".obsolete";  // among them: names of files th
   throw Error(path.string() + ": cannot write: " + what);
 }
 
-std::vector<fs::path> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
+// What a set is made of: files, and folders of images.
+std::vector<fs::path> parts_in(const fs::path& folder) {
+  std::vector<fs::path> parts;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().filename() != kObsolete) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+    if (entry.path().filename() != kObsolete) parts.push_back(entry.path());
+  std::sort(parts.begin(), parts.end());
+  return parts;
 }
 
 bool is_plain_name(const std::string& name) {
@@ -46,11 +47,16 @@ void bring_to_names(const fs::path& folder) {
     const std::string text = io::read_text(ready / kObsolete);
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
-      if (const std::string name = text.substr(at, end - at); is_plain_name(name)) fs::remove(folder / name);
+      if (const std::string name = text.substr(at, end - at); is_plain_name(name))
+        fs::remove_all(folder / name);
       at = end + 1;
     }
   }
-  for (const fs::path& file : files_in(ready)) fs::rename(file, folder / file.filename());
+  for (const fs::path& part : parts_in(ready)) {
+    const fs::path place = folder / part.filename();
+    if (fs::is_directory(part)) fs::remove_all(place);  // a name is not taken from a folder that holds files
+    fs::rename(part, place);
+  }
   fs::remove_all(ready);
 }
 
@@ -85,8 +91,9 @@ void ResultSet::commit(std::span<const char* const> older) {
     std::string obsolete;
     for (const char* const name : older)
       if (!fs::exists(stage_ / name)) obsolete += std::string(name) + '\n';
-    for (const fs::path& file : files_in(stage_))
-      if (fs::is_directory(folder_ / file.filename())) fail(folder_ / file.filename(), "is a folder");
+    for (const fs::path& part : parts_in(stage_))
+      if (!fs::is_directory(part) && fs::is_directory(folder_ / part.filename()))
+        fail(folder_ / part.filename(), "is a folder");
     io::write_text(stage_ / kObsolete, obsolete);
     const HeldSignals held;
     fs::rename(stage_, folder_ / kReady);  // from here on it is the new set
@@ -112,7 +119,8 @@ void settle_results(const fs::path& folder) {
 
 nlohmann::ordered_json checksums_of(const fs::path& folder) {
   nlohmann::ordered_json checksums = nlohmann::ordered_json::object();
-  for (const fs::path& file : files_in(folder)) checksums[file.filename().string()] = checksum_text(file);
+  for (const fs::path& part : parts_in(folder))
+    if (fs::is_regular_file(part)) checksums[part.filename().string()] = checksum_text(part);
   return checksums;
 }
 

@@ -21,10 +21,11 @@ class ResultSet {
   ResultSet(const ResultSet&) = delete;
   ResultSet& operator=(const ResultSet&) = delete;
 
-  // Where to write the files.
+  // Where to write the files. Folders there take the place of those of the same name, with all that is in
+  // them.
   [[nodiscard]] const std::filesystem::path& stage() const noexcept { return stage_; }
 
-  // Of the files that an older result may have, by their names, those go that this one has not written.
+  // Of the parts that an older result may have, by their names, those go that this one has not written.
   // Signals wait meanwhile. Throws Error.
   void commit(std::span<const char* const> older = {});
 

@@ -7,6 +7,7 @@
 
 #include "cli/input/first_image.hpp"
 #include "cli/input/open_images.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/stream/stream_name.hpp"
@@ -38,6 +39,7 @@ const Preset& choose_preset(const std::string& wanted) {
 io::Dataset open_run_dataset(const RunSettings& settings) {
   if (stream_named(settings.dataset))
     throw Error(settings.dataset + ": is a stream, which nobody can run twice; sslam run takes it");
+  settle_results(settings.dataset);  // of `sslam synth`
   io::Dataset dataset =
       open_frames(settings.dataset, {settings.frame_rate}, settings.topics, settings.slice.end);
   io::apply_slice(dataset, settings.slice);

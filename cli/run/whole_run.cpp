@@ -188,7 +188,9 @@ void WholeRun::write() {
   if (settings_.report || pass_->live)
     page = report_of(results.stage(), folder_name(std::filesystem::path(settings_.out)));
   if (settings_.report) write_report(results.stage(), page);
-  results.commit(kOptionalFiles);
+  std::vector<const char*> older(kOptionalFiles.begin(), kOptionalFiles.end());
+  older.push_back("topview.svg");  // a run that tracked nothing has none
+  results.commit(older);
   std::printf("written to       %s\n", settings_.out.c_str());
   if (pass_->video) pass_->video->commit();
   if (interrupted || Interrupt::asked()) {

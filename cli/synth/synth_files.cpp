@@ -11,6 +11,7 @@
 #include "cli/input/camera_yaml.hpp"
 #include "cli/input/image_file.hpp"
 #include "cli/input/normal_files.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/synth/synth_names.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/files/output_file.hpp"
@@ -64,15 +65,17 @@ void write_manifest(const SynthSettings& s, std::size_t frames) {
 
 }  // namespace
 
-void prepare_synth_folder(const SynthSettings& settings) {
-  const fs::path folder = settings.folder;
+void claim_synth_folder(const std::string& name) {
+  const fs::path folder = name;
+  settle_results(folder);
   std::error_code ignored;
-  if (fs::exists(folder / "rgb.txt", ignored) && !fs::exists(folder / "synth.toml", ignored)) {
-    throw Error(settings.folder + ": holds a data set that sslam synth did not make; choose another folder");
-  }
+  if (fs::exists(folder / "rgb.txt", ignored) && !fs::exists(folder / "synth.toml", ignored))
+    throw Error(name + ": holds a data set that sslam synth did not make; choose another folder");
   io::prepare_output_folder(folder);
-  for (const char* list : {"rgb.txt", "depth.txt", "normals.txt", "groundtruth.txt", "camera_true.yaml"})
-    fs::remove(folder / list, ignored);
+}
+
+void prepare_image_folders(const SynthSettings& settings) {
+  const fs::path folder = settings.folder;
   io::prepare_output_folder(folder / "rgb");
   if (settings.depth) io::prepare_output_folder(folder / "depth");
   if (!settings.normals) return;

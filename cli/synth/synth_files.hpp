@@ -2,8 +2,8 @@
 // The files of a synthetic data set: images, lists, camera, and a manifest that tells how it was made.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,8 +16,16 @@ namespace sslam::cli {
 
 inline constexpr double kDepthFactor = 5000.0;  // depth image units per metre
 
-// Makes the folder and its sub-folders; takes the lists of an earlier synthetic data set away.
-void prepare_synth_folder(const SynthSettings& settings);
+// All that a synthetic data set may have, by its names in the folder.
+inline constexpr std::array kSynthParts{
+    "rgb",         "depth",       "normals",          "rgb.txt",         "depth.txt",
+    "normals.txt", "camera.yaml", "camera_true.yaml", "groundtruth.txt", "synth.toml"};
+
+// Makes the folder. Throws Error where it holds a data set of another kind.
+void claim_synth_folder(const std::string& folder);
+
+// Makes the sub-folders for the images.
+void prepare_image_folders(const SynthSettings& settings);
 
 // Buffers of one thread for the images of one frame.
 class FrameWriter {

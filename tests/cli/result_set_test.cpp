@@ -64,6 +64,33 @@ TEST_CASE("a set of results takes the place of an older one as a whole") {
   CHECK(names_in(folder).size() == 7);
 }
 
+TEST_CASE("a folder of a set takes the place of an older one with all that is in it") {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "out";
+  constexpr const char* kParts[] = {"images", "depth", "list"};
+  const auto put = [&](const std::string& n, const Names& images, bool depth) {
+    ResultSet results(folder);
+    fs::create_directory(results.stage() / "images");
+    for (const std::string& image : images) sslam::io::write_text(results.stage() / "images" / image, n);
+    if (depth) fs::create_directory(results.stage() / "depth");
+    sslam::io::write_text(results.stage() / "list", n);
+    results.commit(kParts);
+  };
+  put("1", {"a", "b", "c"}, true);
+  CHECK(names_in(folder) == Names{"depth", "images", "list"});
+  put("2", {"a", "b"}, false);
+  CHECK(names_in(folder) == Names{"images", "list"});
+  CHECK(names_in(folder / "images") == Names{"a", "b"});
+  CHECK(text_of(folder / "images/b") == "2");
+  CHECK(checksums_of(folder).size() == 1);  // of files alone
+  // As if killed between the two names.
+  fs::create_directories(folder / ".sslam-ready");
+  fs::rename(folder / "images", folder / ".sslam-ready/images");
+  scratch.write("out/images/c", "1");
+  settle_results(folder);
+  CHECK(names_in(folder / "images") == Names{"a", "b"});
+}
+
 TEST_CASE("a folder that has gone is made again for the results") {
   const ScratchFolder scratch;
   write_set(scratch.path() / "gone" / "out", 1);
