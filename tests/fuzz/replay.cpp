@@ -18,8 +18,8 @@ Random& inner_random() {
 
 std::uint8_t any_byte(Random& random) {
   // What readers look for: signs, digits, brackets, ends of lines, limits.
-  constexpr char kLetters[] = "\0\x01\x7f\x80\xff\n\r\t .,:;-+=eE019#%\"'[]{}<>/\\&";
-  constexpr std::string_view kTelling(kLetters, sizeof kLetters - 1);
+  static constexpr char kLetters[] = "\0\x01\x7f\x80\xff\n\r\t .,:;-+=eE019#%\"'[]{}<>/\\&";
+  static constexpr std::string_view kTelling(kLetters, sizeof kLetters - 1);
   return static_cast<std::uint8_t>(random.below(2) == 0 ? kTelling[random.below(kTelling.size())]
                                                         : static_cast<char>(random.below(256)));
 }
