@@ -111,6 +111,7 @@
 #include "sslam/solver/bundle/landmark_elimination.hpp"
 #include "sslam/solver/bundle/pose_graph.hpp"
 #include "sslam/solver/bundle/pose_graph_solver.hpp"
+#include "sslam/solver/bundle/scale_tie.hpp"
 #include "sslam/solver/least_squares/block_kernels.hpp"
 #include "sslam/solver/least_squares/descent.hpp"
 #include "sslam/solver/least_squares/levenberg_marquardt.hpp"

@@ -9,6 +9,7 @@
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/pixels.hpp"
+#include "sslam/solver/bundle/scale_tie.hpp"
 #include "sslam/system/compiled_kernels.hpp"
 
 namespace sslam::python {
@@ -131,8 +132,7 @@ void add_edges(const Rows<double>& pixels, std::size_t size, std::size_t views, 
   }
 }
 
-// Views without an edge stay where they are. With one pose held the scale is open: the distance to the free
-// camera that is farthest from it keeps its length.
+// Views without an edge stay where they are. With one pose held the scale is open, and is tied.
 void fix_gauge(const Rows<bool>& held, BundleGraph<double>& graph) {
   std::vector<bool> sees(graph.views.size(), false);
   for (const auto& edge : graph.point_edges) sees[static_cast<std::size_t>(edge.view)] = true;
@@ -142,15 +142,7 @@ void fix_gauge(const Rows<bool>& held, BundleGraph<double>& graph) {
     if (held.data()[v] || !sees[v]) graph.views[v].hold = Hold::kPose;
     if (held.data()[v] && anchors++ == 0) anchor = v;
   }
-  if (anchors != 1) return;
-  const Vec3<double> centre = graph.views[anchor].cam_from_world.inverse().translation;
-  ScaleTie<double> tie{static_cast<std::int32_t>(anchor), -1, 0};
-  for (std::size_t v = 0; v < graph.views.size(); ++v) {
-    if (graph.views[v].hold == Hold::kPose) continue;
-    const double distance = (graph.views[v].cam_from_world.inverse().translation - centre).norm();
-    if (distance > tie.distance) tie = {tie.held, static_cast<std::int32_t>(v), distance};
-  }
-  if (tie.free >= 0) graph.scale = tie;
+  if (anchors == 1) tie_scale(graph, anchor);
 }
 
 nb::tuple bundle_adjust(const Rows<double>& poses, const Rows<double>& points, const Rows<double>& pixels,

@@ -9,7 +9,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/map/plane_ties.hpp"
-#include "sslam/solver/bundle/bundle_graph.hpp"
+#include "sslam/solver/bundle/scale_tie.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
 
 namespace sslam {
@@ -187,23 +187,12 @@ class BundleWindow {
     const auto oldest = std::min_element(keyframes.begin(), end);
     const std::size_t held = keyframes.size() - free_count;
     if (held > 0 && *oldest != 0) {
-      if (held == 1) tie_scale(free_count);
+      if (held == 1) tie_scale(graph, free_count);
       return;
     }
     const auto anchor = static_cast<std::size_t>(oldest - keyframes.begin());
     graph.views[anchor].hold = graph.views[anchor].rotation ? Hold::kCentre : Hold::kPose;
-    if (held == 0) tie_scale(anchor);
-  }
-
-  void tie_scale(std::size_t held) {
-    const Vec3<S> centre = graph.views[held].cam_from_world.inverse().translation;
-    ScaleTie<S> tie{to_int(held), kNone, 0};
-    for (std::size_t v = 0; v < free_count; ++v) {
-      if (graph.views[v].hold != Hold::kNothing) continue;
-      const S distance = (graph.views[v].cam_from_world.inverse().translation - centre).norm();
-      if (distance > tie.distance) tie = {tie.held, to_int(v), distance};
-    }
-    if (tie.free != kNone) graph.scale = tie;
+    if (held == 0) tie_scale(graph, anchor);
   }
 
   [[nodiscard]] static std::int32_t to_int(std::size_t i) noexcept { return static_cast<std::int32_t>(i); }
