@@ -52,15 +52,13 @@ void write_glb(const std::filesystem::path& path, const dense::DenseModel& model
   using namespace gltf_names;
   constexpr int kQuality = 92;
   const Mesh mesh = mesh_of(model, atlas);
-  std::string indices;
-  for (const std::uint32_t i : mesh.indices) append_bytes(indices, i);
   std::vector<unsigned char> jpeg;
   cv::imencode(".jpg", atlas.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   GltfBuffer buffer;
   const std::size_t places = buffer.add(bytes_of(mesh.places), kArrayBuffer),
                     normals = buffer.add(bytes_of(mesh.normals), kArrayBuffer),
                     textures = buffer.add(bytes_of(mesh.textures), kArrayBuffer),
-                    triangles = buffer.add(indices, kIndexBuffer),
+                    triangles = buffer.add(bytes_of(mesh.indices), kIndexBuffer),
                     image = buffer.add({jpeg.begin(), jpeg.end()}, 0);
   const std::size_t vertices = mesh.places.size();
   const Json accessors = {

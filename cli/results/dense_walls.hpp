@@ -68,7 +68,7 @@ inline constexpr int kLevels = 24, kTall = 8;
 [[nodiscard]] inline std::vector<FloorPlan::Stroke> dense_walls(const std::filesystem::path& folder,
                                                                 const RunFolder& run,
                                                                 const Mat3<double>& turn) {
-  constexpr double kUpright = 0.17, kThickness = 2e-3, kStep = 0.01;  // the last two: shares of the plan
+  constexpr double kThickness = 2e-3, kStep = 0.01;  // shares of the plan
   using dense_walls_detail::kLevels, dense_walls_detail::kTall;
   std::vector<FloorPlan::Stroke> walls;
   const std::vector<Plane3<double>> planes = dense_walls_detail::planes_of(run);
@@ -86,24 +86,25 @@ inline constexpr int kLevels = 24, kTall = 8;
   if (!(size > 0 && height > 0)) return walls;
   for (const Plane3<double>& plane : planes) {
     const Vec3<double> normal = turn * plane.normal;
-    if (std::abs(normal.z()) > kUpright) continue;
-    const Vec3<double> across = Vec3<double>(normal.x(), normal.y(), 0).normalized(),
-                       along(-across.y(), across.x(), 0);
+    if (std::abs(normal.z()) > kNearlyUpright) continue;
+    const WallAxes axes(normal);
     // What the plane shows at each step along it: a bit for each level of height. Floors that only cross it
     // fill one.
     std::map<long, std::uint32_t> columns;
     for (const Vec3<double>& place : places) {
       if (std::abs(normal.dot(place) - plane.distance) > kThickness * size) continue;
       const double level = std::min((place.z() - low.z()) / height * kLevels, kLevels - 1.0);
-      columns[std::lround(std::floor(along.dot(place) / step))] |= 1U << static_cast<unsigned>(level);
+      columns[std::lround(std::floor(axes.along.dot(place) / step))] |= 1U << static_cast<unsigned>(level);
     }
     std::erase_if(columns, [](const auto& column) { return std::popcount(column.second) < kTall; });
-    const Vec3<double> foot = across * (plane.distance / across.dot(normal));
+    const Vec3<double> foot = axes.across * (plane.distance / axes.across.dot(normal));
     for (auto column = columns.begin(); column != columns.end();) {
       const long first = column->first;
       long last = first;
       for (++column; column != columns.end() && column->first <= last + 2; ++column) last = column->first;
-      const auto at = [&](long k) -> Vec3<double> { return foot + along * (static_cast<double>(k) * step); };
+      const auto at = [&](long k) -> Vec3<double> {
+        return foot + axes.along * (static_cast<double>(k) * step);
+      };
       walls.push_back({at(first), at(last + 1)});
     }
   }

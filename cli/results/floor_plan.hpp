@@ -44,6 +44,16 @@ struct FloorPlan {
   return rows;
 }
 
+// In plan coordinates: what lies within 10 degrees of flat or of upright counts as that (a cosine).
+inline constexpr double kNearlyUpright = 0.17;
+
+// The level directions across and along a wall, by its normal.
+struct WallAxes {
+  explicit WallAxes(const Vec3<double>& normal)
+      : across(Vec3<double>(normal.x(), normal.y(), 0).normalized()), along(-across.y(), across.x(), 0) {}
+  Vec3<double> across, along;
+};
+
 namespace floor_plan_detail {
 
 // The stretch of a wall that its landmarks cover; a few of them, which may be wrong, do not count.
@@ -52,19 +62,17 @@ inline void add_wall(const Plane3<double>& plane, const Mat3<double>& turn,
   constexpr std::size_t kFewest = 5;
   constexpr std::size_t kTail = 50;  // one in so many at either end
   if (members.size() < kFewest) return;
-  const Vec3<double> normal = turn * plane.normal;
-  const Vec3<double> across = Vec3<double>(normal.x(), normal.y(), 0).normalized(),
-                     along(-across.y(), across.x(), 0);
+  const WallAxes axes(turn * plane.normal);
   std::vector<double> at;
   double sum = 0;
   for (const Vec3<double>& member : members) {
-    at.push_back(along.dot(member));
-    sum += across.dot(member);
+    at.push_back(axes.along.dot(member));
+    sum += axes.across.dot(member);
   }
   std::sort(at.begin(), at.end());
   const std::size_t spare = at.size() / kTail;
-  const Vec3<double> foot = across * (sum / static_cast<double>(at.size()));
-  plan.walls.push_back({foot + along * at[spare], foot + along * at[at.size() - 1 - spare]});
+  const Vec3<double> foot = axes.across * (sum / static_cast<double>(at.size()));
+  plan.walls.push_back({foot + axes.along * at[spare], foot + axes.along * at[at.size() - 1 - spare]});
 }
 
 inline void draw_strokes(std::ostream& out, const io::svg::View& view,
@@ -103,8 +111,7 @@ inline void draw_strokes(std::ostream& out, const io::svg::View& view,
 
 [[nodiscard]] inline FloorPlan make_floor_plan(const Map<double>& map, const io::Trajectory& path) {
   namespace detail = floor_plan_detail;
-  constexpr double kUpright = 0.17;  // cosine: planes and lines within 10 degrees count as upright or flat
-  const double kStanding = std::sqrt(1 - kUpright * kUpright);
+  const double standing = std::sqrt(1 - kNearlyUpright * kNearlyUpright);
   const Mat3<double> turn = plan_from_world(map);
   FloorPlan plan;
   std::vector<std::vector<Vec3<double>>> members(map.planes.size());
@@ -117,15 +124,15 @@ inline void draw_strokes(std::ostream& out, const io::svg::View& view,
     if (!line.alive) continue;
     const Vec3<double> start = turn * line.start, end = turn * line.end;
     const double rise = std::abs(end.z() - start.z()), length = (end - start).norm();
-    if (rise < kUpright * length) plan.lines.push_back({start, end});
-    if (rise > kStanding * length) plan.uprights.push_back((start + end) / 2);
+    if (rise < kNearlyUpright * length) plan.lines.push_back({start, end});
+    if (rise > standing * length) plan.uprights.push_back((start + end) / 2);
     if (line.plane != kNone) {
       members[map.index(line.plane)].push_back(start);
       members[map.index(line.plane)].push_back(end);
     }
   }
   for (std::size_t p = 0; p < map.planes.size(); ++p)
-    if (map.planes[p].alive && std::abs((turn * map.planes[p].plane.normal).z()) < kUpright)
+    if (map.planes[p].alive && std::abs((turn * map.planes[p].plane.normal).z()) < kNearlyUpright)
       detail::add_wall(map.planes[p].plane, turn, members[p], plan);
   plan.path = path;
   for (io::StampedPose& pose : plan.path)

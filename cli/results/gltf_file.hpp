@@ -37,6 +37,12 @@ template <class Vector>
   return bytes;
 }
 
+[[nodiscard]] inline std::string bytes_of(const std::vector<std::uint32_t>& indices) {
+  std::string bytes;
+  for (const std::uint32_t i : indices) append_bytes(bytes, i);
+  return bytes;
+}
+
 // Each part begins at a multiple of four.
 class GltfBuffer {
  public:

@@ -61,9 +61,7 @@ struct Mesh {
                                                        {"count", count},
                                                        {"type", "VEC4"}});
     if (!indices.empty()) {
-      std::string bytes;
-      for (const std::uint32_t i : indices) append_bytes(bytes, i);
-      primitive["indices"] = add_accessor({{"bufferView", buffer.add(bytes, kIndexBuffer)},
+      primitive["indices"] = add_accessor({{"bufferView", buffer.add(bytes_of(indices), kIndexBuffer)},
                                            {"componentType", kUnsigned},
                                            {"count", indices.size()},
                                            {"type", "SCALAR"}});

@@ -23,10 +23,12 @@ inline constexpr const char* kReportFile = "report.html";
 inline constexpr const char* kCameraFoundFile = "camera_found.yaml";
 inline constexpr const char* kModelFile = "model.glb";  // of `--dense`
 inline constexpr const char* kModelPlyFile = "model.ply";
+inline constexpr const char* kTopViewFile = "topview.svg";  // of a run that tracked something
 
 // Those that a run need not write.
-inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile,      kTruthFile, kViewFile,
-                                           kReportFile, kCameraFoundFile, kModelFile, kModelPlyFile};
+inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile,   kTruthFile,
+                                           kViewFile,   kReportFile,   kCameraFoundFile,
+                                           kModelFile,  kModelPlyFile, kTopViewFile};
 
 struct RunFolder {
   std::string name;  // of the folder, for people

@@ -334,7 +334,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   settings["parameters"] = parameters;
   metrics["settings"] = settings;
   metrics["versions"] = versions_json();
-  write_top_view_file(out / "topview.svg", context, outcome, evaluation);
+  write_top_view_file(out / kTopViewFile, context, outcome, evaluation);
   metrics["files"] = checksums_of(out);
   write_json((out / "metrics.json").string(), metrics);
   print_summary(context, outcome, evaluation, metric);

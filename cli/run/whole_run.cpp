@@ -188,9 +188,7 @@ void WholeRun::write() {
   if (settings_.report || pass_->live)
     page = report_of(results.stage(), folder_name(std::filesystem::path(settings_.out)));
   if (settings_.report) write_report(results.stage(), page);
-  std::vector<const char*> older(kOptionalFiles.begin(), kOptionalFiles.end());
-  older.push_back("topview.svg");  // a run that tracked nothing has none
-  results.commit(older);
+  results.commit(kOptionalFiles);
   std::printf("written to       %s\n", settings_.out.c_str());
   if (pass_->video) pass_->video->commit();
   if (interrupted || Interrupt::asked()) {

@@ -118,8 +118,7 @@ void add_lens_options(CLI::App& synth, SynthSettings& s) {
       .add_option_function<std::string>(
           "--camera-error", [&s](const std::string& text) { (void)parse_camera_error(text, s.camera_error); },
           "by how much camera.yaml is wrong, such as focal=0.05,k1=0.1: focal as a share, cx and cy in "
-          "pixels, "
-          "k1, k2, p1, p2; default nothing")
+          "pixels, k1, k2, p1, p2; default nothing")
       ->type_name("NAME=VALUE,...")
       ->check([](const std::string& text) {
         CameraError error;
@@ -159,8 +158,7 @@ void add_synth_options(CLI::App& synth, SynthSettings& s) {
   add_choice_function(
       synth, "--camera-like", [&s](const CameraLook& look) { apply_look(look, s); }, kCameraLooks,
       "sets size, rate, focal length, lens, read-out, blur, noise, drifts, format and the hand's tremor and "
-      "shake as "
-      "such a camera has them; each can be overridden");
+      "shake as such a camera has them; each can be overridden");
   add_scene_options(synth, s);
   add_image_options(synth, s);
   add_lens_options(synth, s);
