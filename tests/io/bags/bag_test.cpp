@@ -72,7 +72,8 @@ TEST_CASE("MCAP gives the same with and without chunks, and in either order of b
     CHECK(dataset.warnings.empty());
     CHECK(dataset.frames[0].stamp == 1.000000005);
     CHECK(message_of(dataset, 1) == image_2(2, true));
-    const auto image = io::read_image_message({io::Wire::kCdr, image_2(2, true)});
+    const std::string bytes = image_2(2, true);  // the image is a view of it
+    const auto image = io::read_image_message({io::Wire::kCdr, bytes});
     CHECK(image.width == 2);
     CHECK(image.data == "ab");
   }
