@@ -87,15 +87,15 @@ inline constexpr int kFine = 2;  // rays a pixel, in each direction
   return image;
 }
 
-[[nodiscard]] inline cv::Mat photograph(const TrueCamera& camera, const BoardPicture& board,
-                                        const cv::Vec3d& turn, const cv::Vec3d& middle) {
+// Of a pinhole with its lens: for seen_by. They take longer than an image, so tests share them.
+[[nodiscard]] inline std::vector<cv::Vec3d> lens_rays(const TrueCamera& camera) {
   std::vector<cv::Point2d> straight;
   cv::undistortPoints(fine_pixels(camera.size), straight, camera.matrix(), camera.lens, cv::noArray(),
                       cv::noArray(),
                       cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-9));
   std::vector<cv::Vec3d> rays;
   for (const cv::Point2d& ray : straight) rays.emplace_back(ray.x, ray.y, 1);
-  return seen_by(rays, camera.size, board, turn, middle);
+  return rays;
 }
 
 // Of a fisheye, as far as 85 degrees off its axis: for seen_by.

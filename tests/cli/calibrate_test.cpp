@@ -45,13 +45,17 @@ std::vector<Placement> good_placements() {
           {{0, 0.7, 0}, {0, 0, 0.6}}};
 }
 
+// By the camera that the tests look for.
+cv::Mat photograph(const BoardPicture& board, const Placement& placement) {
+  static const std::vector<cv::Vec3d> rays = lens_rays({});
+  return seen_by(rays, TrueCamera{}.size, board, placement.turn, placement.middle);
+}
+
 // A folder of photographs, named by number.
-void shoot(const fs::path& folder, const std::vector<Placement>& placements, const BoardPicture& board,
-           const TrueCamera& camera = {}) {
+void shoot(const fs::path& folder, const std::vector<Placement>& placements, const BoardPicture& board) {
   fs::create_directories(folder);
   for (std::size_t i = 0; i < placements.size(); ++i)
-    REQUIRE(cv::imwrite((folder / (std::to_string(i) + ".png")).string(),
-                        photograph(camera, board, placements[i].turn, placements[i].middle)));
+    REQUIRE(cv::imwrite((folder / (std::to_string(i) + ".png")).string(), photograph(board, placements[i])));
 }
 
 const BoardPicture& chessboard() {
@@ -132,8 +136,7 @@ TEST_CASE("calibrate takes a video, and each view of it once") {
     REQUIRE(video.isOpened());
     for (const Placement& placement : good_placements()) {
       cv::Mat colour;
-      cv::cvtColor(photograph({}, chessboard(), placement.turn, placement.middle), colour,
-                   cv::COLOR_GRAY2BGR);
+      cv::cvtColor(photograph(chessboard(), placement), colour, cv::COLOR_GRAY2BGR);
       for (int i = 0; i < 2; ++i) video.write(colour);
     }
   }
@@ -152,9 +155,9 @@ TEST_CASE("calibrate leaves a view out that does not fit, and says so") {
   TrueCamera zoomed;
   zoomed.fx = zoomed.fy = 640;
   const Placement placement = good_placements()[5];
-  cv::imwrite(
-      (session.folder / "zoomed.png").string(),
-      photograph(zoomed, chessboard(), placement.turn, placement.middle + cv::Vec3d(-0.1, -0.05, 0.1)));
+  cv::imwrite((session.folder / "zoomed.png").string(),
+              seen_by(lens_rays(zoomed), zoomed.size, chessboard(), placement.turn,
+                      placement.middle + cv::Vec3d(-0.1, -0.05, 0.1)));
   cv::imwrite((session.folder / "wall.png").string(), cv::Mat(TrueCamera{}.size, CV_8UC1, cv::Scalar(128)));
   const Outcome outcome = session.calibrate();
   INFO(outcome.text);
