@@ -29,7 +29,7 @@ void add_input_options(CLI::App& command, RunSettings& s) {
       .add_option(
           "dataset", s.dataset,
           "Folder (TUM RGB-D, EuRoC, ICL-NUIM, 7-Scenes, ScanNet, KITTI, nerfstudio, ..., plain images), a "
-          "quoted glob of images, a video, a bag of ROS 1 or 2 (bag, mcap), " +
+          "quoted glob of images, a video, a bag of ROS 1 or 2 (bag, mcap, db3), " +
               std::string(kStreamKinds))
       ->required();
   command

@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "cli/input/bag_database.hpp"
 #include "cli/input/chunk_codec.hpp"
 #include "cli/input/image_file.hpp"
 #include "cli/input/ros_image.hpp"
@@ -32,15 +33,24 @@ std::string_view BagReader::message(std::int64_t index) {
   if (index < 0 || at >= stream_.places.size() || stream_.places[at].size == 0) return {};
   const io::MessagePlace& place = stream_.places[at];
   if (held_ != place.chunk) {
-    const io::ChunkPlace& chunk = bag_.chunks[place.chunk];
-    const std::filesystem::path& path = bag_.files[chunk.file];
     held_.reset();
-    if (!file_ || file_->path() != path) file_.emplace(path);
-    if (!io::read_chunk(*file_, chunk, chunk_codec(), scratch_, bytes_)) return {};
+    if (!read_chunk(bag_.chunks[place.chunk])) return {};
     held_ = place.chunk;
   }
   if (place.begin > bytes_.size() || place.size > bytes_.size() - place.begin) return {};
   return std::string_view(bytes_).substr(place.begin, place.size);
+}
+
+bool BagReader::read_chunk(const io::ChunkPlace& chunk) {
+  if (open_ != chunk.file) {
+    const std::filesystem::path& path = bag_.files[chunk.file];
+    database_ = chunk.in_database ? open_bag_database(path) : nullptr;
+    if (!chunk.in_database) file_.emplace(path);
+    open_ = chunk.file;
+  }
+  if (!chunk.in_database) return io::read_chunk(*file_, chunk, chunk_codec(), scratch_, bytes_);
+  return io::read_database_message(*database_, static_cast<std::int64_t>(chunk.begin), chunk_codec(),
+                                   scratch_, bytes_);
 }
 
 template <class Decode>
@@ -86,7 +96,7 @@ cv::Mat BagReader::decode_depth(const io::MessageFields& fields, const std::stri
 }
 
 void list_bag_frames(io::Dataset& dataset, const io::BagTopics& topics) {
-  io::fill_bag_frames(dataset, topics, chunk_codec());
+  io::fill_bag_frames(dataset, topics, chunk_codec(), open_bag_database);
 }
 
 }  // namespace sslam::cli

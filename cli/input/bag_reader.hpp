@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -37,7 +38,11 @@ class BagReader {
 
   const io::BagFrames& bag_;
   const io::BagFrames::Stream& stream_;
+  [[nodiscard]] bool read_chunk(const io::ChunkPlace& chunk);
+
+  std::optional<std::uint16_t> open_;  // which of the bag's files is
   std::optional<io::BagFile> file_;
+  std::unique_ptr<io::BagDatabase> database_;
   std::string scratch_, bytes_;
   std::optional<std::uint32_t> held_;  // the chunk that bytes_ holds
 };

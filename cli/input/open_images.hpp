@@ -38,7 +38,7 @@ namespace sslam::cli {
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
     if (!io::is_video_name(path) && !io::is_bag_name(path))
       throw Error(path.string() +
-                  ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap)");
+                  ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");
   }
   return open_frames(path, {}, topics);
 }

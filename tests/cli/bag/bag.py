@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`sslam run` on recordings of ROS 1 and 2 that other programs have written, and `sslam export --format mcap` read back by them.
 
-Usage: bag.py PROGRAM CASE   (ros1, ros2, mcap, depth, refusals, export)
+Usage: bag.py PROGRAM CASE   (ros1, ros2, sqlite, mcap, depth, refusals, export)
 """
 import csv
 import pathlib
@@ -77,6 +77,43 @@ def ros2(sslam):
     assert "has no topics" in sslam.run(sslam.room.folder, "none", "--topic", "/camera/image_raw", code=1)[1]
 
 
+def sqlite(sslam):
+    """ROS 2's other storage: as rosbags writes it, and by the tables' documentation as recorders leave it."""
+    messages = list(sslam.room.messages(depth=None))
+    path = sslam.scratch / "recording"
+    bags.write_ros2(path, messages, "SQLITE3")
+    assert "the camera is that of" in sslam.same_as_folder(path)
+    # Each message packed, and no metadata: the recorder was killed.
+    path = sslam.scratch / "packed"
+    bags.write_ros2(path, messages, "SQLITE3", per_message=True)
+    (path / "metadata.yaml").unlink()
+    sslam.same_as_folder(path)
+    # In two files, whose tables number the topics in another order. A name may have what a URI has.
+    path = sslam.scratch / "two parts?mode=x&%41#"
+    path.mkdir()
+    images = [m for m in messages if "Image" in m[1]]
+    others = [m for m in messages if "Image" not in m[1]]
+    bags.write_sqlite(path / "part_0.db3", images[:9] + others).close()
+    bags.write_sqlite(path / "part_1.db3", images[9:]).close()
+    sslam.same_as_folder(path)
+    # What its recorder had not yet put into the file stands in a log beside it.
+    live = bags.write_sqlite(sslam.scratch / "live.db3", messages, journal="WAL")
+    (sslam.scratch / "copy").mkdir()
+    for name in ("live.db3", "live.db3-wal"):
+        (sslam.scratch / "copy" / name).write_bytes((sslam.scratch / name).read_bytes())
+    live.close()
+    assert (sslam.scratch / "copy" / "live.db3").stat().st_size < 100_000
+    sslam.same_as_folder(sslam.scratch / "copy" / "live.db3")
+    # Spoilt on the way, and cut off.
+    whole = bytearray(next((sslam.scratch / "recording").glob("*.db3")).read_bytes())
+    (sslam.scratch / "cut.db3").write_bytes(whole[:len(whole) // 2])
+    assert ".recover" in sslam.run(sslam.scratch / "cut.db3", "cut", code=1)[1]
+    whole[len(whole) * 3 // 4:len(whole) * 3 // 4 + 8192] = b"\xff" * 8192
+    (sslam.scratch / "spoilt.db3").write_bytes(whole)
+    _, said = sslam.run(sslam.scratch / "spoilt.db3", "spoilt")
+    assert "after message" in said and "what stands before is used" in said, said
+
+
 def mcap_files(sslam):
     messages = list(sslam.room.messages(depth=None))
     for compression in ("NONE", "LZ4", "ZSTD"):
@@ -112,13 +149,58 @@ def refusals(sslam):
     text = said(sslam.scratch / "two.mcap")
     assert "2 topics with images" in text and "/right/image_raw/compressed" in text, text
     assert "names no topic" in said(sslam.scratch / "two.mcap", "--topic", "/nowhere")
-    bags.write_ros2(sslam.scratch / "sqlite", one, "SQLITE3")
-    assert "ros2 bag convert" in said(sslam.scratch / "sqlite")
+    bags.write_ros2(sslam.scratch / "sqlite", two, "SQLITE3")
+    (part,) = (sslam.scratch / "sqlite").glob("*.db3")
+    bags.write_mcap(sslam.scratch / "sqlite" / "sqlite.mcap", two)
+    assert "both .mcap and .db3" in said(sslam.scratch / "sqlite")
+    part.rename(part.with_suffix(".db3.zstd"))
+    assert "zstd -d" in said(sslam.scratch / "sqlite")
+    part.with_suffix(".db3.zstd").rename(part)
+    spoilt_databases(part, said)
     bags.write_ros1(sslam.scratch / "poses.bag", [m for m in sslam.room.messages(packed=True, depth=None) if "Pose" in m[1] or
                                                   "Transform" in m[1]])
     assert "holds no images" in said(sslam.scratch / "poses.bag")
     (sslam.scratch / "text.bag").write_text("hello")
     assert "neither a ROS 1 bag" in said(sslam.scratch / "text.bag")
+
+
+def spoilt_databases(part, said):
+    """Databases that are no bags, or mean harm."""
+    import sqlite3
+    endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i AS id, 1 AS topic_id, 1 AS timestamp, x'' AS data FROM n"
+    for name, statements in {
+            "empty": [],
+            "columns": ["CREATE TABLE topics(id INTEGER)"],
+            "view": ["ALTER TABLE messages RENAME TO m", f"CREATE VIEW messages AS {endless}"],
+            "generated": ["DROP TABLE messages", "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, "
+                          "data AS (zeroblob(900000000)))", "INSERT INTO messages VALUES (1, 1, 1)"],
+            "module": ["DROP TABLE messages", "CREATE VIRTUAL TABLE messages USING fts4(topic_id, timestamp, data)"],
+            "keyed": ["DROP TABLE messages", "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data) WITHOUT ROWID"],
+    }.items():
+        path = part.with_name(f"{name}.db3")
+        if name not in ("empty", "columns"):
+            path.write_bytes(part.read_bytes())
+        with sqlite3.connect(path) as database:
+            for statement in statements or ["CREATE TABLE t(x)"]:
+                database.execute(statement)
+        database.close()
+        assert "no bag of ROS 2: it has no table" in said(path), name
+    # The root of messages leads back to itself.
+    page = int.from_bytes(part.read_bytes()[16:18], "big")
+    database = sqlite3.connect(part)
+    database.execute("INSERT INTO messages(topic_id, timestamp, data) WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n "
+                     "WHERE i < 2000) SELECT 99, i, x'00' FROM n")
+    database.commit()
+    (root,) = database.execute("SELECT rootpage FROM sqlite_schema WHERE name = 'messages'").fetchone()
+    database.close()
+    data = bytearray(part.read_bytes())
+    assert data[(root - 1) * page] == 5  # of the inner kind
+    data[(root - 1) * page + 8:(root - 1) * page + 12] = root.to_bytes(4, "big")
+    first = int.from_bytes(data[(root - 1) * page + 12:(root - 1) * page + 14], "big")
+    data[(root - 1) * page + first:(root - 1) * page + first + 4] = root.to_bytes(4, "big")
+    path = part.with_name("circle.db3")
+    path.write_bytes(data)
+    assert ".recover" in said(path)
 
 
 def export(sslam):
@@ -187,7 +269,7 @@ def matrix(x, y, z, w):
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
-CASES = {"ros1": ros1, "ros2": ros2, "mcap": mcap_files, "depth": depth, "refusals": refusals, "export": export}
+CASES = {"ros1": ros1, "ros2": ros2, "sqlite": sqlite, "mcap": mcap_files, "depth": depth, "refusals": refusals, "export": export}
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory(prefix="sslam_bag_") as folder:

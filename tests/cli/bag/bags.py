@@ -146,17 +146,45 @@ def write_ros1(path, messages, compression=None):
             writer.write(connections[topic], stamp, store.serialize_ros1(make(store, kind, fields), kind))
 
 
-def write_ros2(path, messages, plugin="MCAP"):
+def write_ros2(path, messages, plugin="MCAP", per_message=False):
     """A folder with metadata.yaml."""
-    from rosbags.rosbag2 import StoragePlugin, Writer
+    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
     store = get_typestore(Stores.ROS2_HUMBLE)
-    with Writer(path, version=9, storage_plugin=getattr(StoragePlugin, plugin)) as writer:
+    writer = Writer(path, version=9, storage_plugin=getattr(StoragePlugin, plugin))
+    if per_message:
+        writer.set_compression(CompressionMode.MESSAGE, CompressionFormat.ZSTD)
+    with writer:
         connections = {}
         for topic, kind, stamp, fields in messages:
             if topic not in connections:
                 connections[topic] = writer.add_connection(topic, kind, typestore=store)
             writer.write(connections[topic], stamp, store.serialize_cdr(make(store, kind, fields), kind))
+
+
+def write_sqlite(path, messages, journal="DELETE"):
+    """One .db3, by the tables that rosbag2's storage plugin documents. The open database."""
+    import sqlite3
+    from rosbags.typesys import Stores, get_typestore
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    database = sqlite3.connect(path)
+    database.execute(f"PRAGMA journal_mode = {journal}")
+    database.execute("PRAGMA wal_autocheckpoint = 0")
+    database.execute("CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL)")
+    database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+                     "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)")
+    database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL, "
+                     "data BLOB NOT NULL)")
+    database.execute("CREATE INDEX timestamp_idx ON messages (timestamp ASC)")
+    topics = {}
+    for topic, kind, stamp, fields in messages:
+        if topic not in topics:
+            topics[topic] = 7 + len(topics)
+            database.execute("INSERT INTO topics VALUES (?, ?, ?, 'cdr', '')", (topics[topic], topic, kind))
+        data = bytes(store.serialize_cdr(make(store, kind, fields), kind))
+        database.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)", (topics[topic], stamp, data))
+    database.commit()
+    return database
 
 
 def write_mcap(path, messages, compression="ZSTD", **options):

@@ -51,12 +51,13 @@ class BagFile {
 
 // A run of records in a file. A message that lies in no chunk is one by itself.
 struct ChunkPlace {
-  std::uint64_t begin = 0;   // of the packed bytes in the file
+  std::uint64_t begin = 0;   // of the packed bytes in the file; in a database, the message's id
   std::uint64_t packed = 0;  // bytes there
   std::uint64_t size = 0;    // unpacked
   std::uint32_t crc = 0;     // of the unpacked bytes; 0: none
   std::uint16_t file = 0;    // of the recording
   Packing packing = Packing::kNone;
+  bool in_database = false;
 };
 
 struct MessagePlace {

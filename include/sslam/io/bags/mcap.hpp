@@ -49,13 +49,6 @@ template <class T>
   return reader.take(number<std::uint32_t>(reader));
 }
 
-// "sensor_msgs/msg/Image" as ROS 1 calls it.
-[[nodiscard]] inline std::string plain_type(std::string_view name) {
-  std::string type(name);
-  if (const std::size_t at = type.find("/msg/"); at != std::string::npos) type.erase(at, 4);
-  return type;
-}
-
 // The schemas of a file, and what is told of its records. Throws Error where a record is damaged.
 template <RecordSink Sink>
 class Records {

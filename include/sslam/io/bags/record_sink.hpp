@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,6 +18,13 @@ struct BagChannel {
   std::string type;      // "sensor_msgs/Image", in ROS 2, too
   std::string encoding;  // "ros1", "cdr", or one of other programs
 };
+
+// "sensor_msgs/msg/Image", as ROS 2 calls it, by the name that ROS 1 has for it.
+[[nodiscard]] inline std::string plain_type(std::string_view name) {
+  std::string type(name);
+  if (const std::size_t at = type.find("/msg/"); at != std::string::npos) type.erase(at, 4);
+  return type;
+}
 
 // A message where its bytes are at hand.
 struct BagRecord {
@@ -34,7 +42,8 @@ concept RecordSink = requires(S sink, std::uint32_t number, const BagChannel& ch
   { sink.chunk(chunk) } -> std::same_as<std::uint32_t>;
   sink.channel(number, channel);
   sink.message(record);
-  // A chunk, or what stands in it, is damaged; the file goes on behind it.
+  // A chunk, or what stands in it, is damaged; the file goes on behind it. `at`: a byte, or a message's id in
+  // a database.
   sink.damaged_chunk(at);
   // The file cannot be read from here on.
   sink.broken(at, what);

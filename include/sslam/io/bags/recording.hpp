@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a recording holds that is of use: its topics with images, where each message lies, cameras and poses.
-// A recording is a bag of ROS 1, an MCAP file, or a folder of these as ROS 2 writes it.
+// A recording is a bag of ROS 1, an MCAP file, an SQLite file of ROS 2, or a folder as ROS 2 writes it.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sslam/core/error.hpp"
+#include "sslam/io/bags/bag_database.hpp"
 #include "sslam/io/bags/bag_file.hpp"
 #include "sslam/io/bags/mcap.hpp"
 #include "sslam/io/bags/messages.hpp"
@@ -76,18 +77,20 @@ class Collector {
  public:
   explicit Collector(BagRecording& recording) : recording_(recording) {}
 
-  void begin_file(const std::filesystem::path& file) {
+  void begin_file(const std::filesystem::path& file, bool database) {
     file_ = file;
+    database_ = database;
     topic_of_.clear();
     damaged_ = 0;
   }
 
   void end_file() {
     if (damaged_ > 0)
-      recording_.warnings.push_back(file_.string() + ": a damaged chunk at byte " +
+      recording_.warnings.push_back(file_.string() + ": a damaged " +
+                                    (database_ ? "message, id " : "chunk at byte ") +
                                     std::to_string(first_damaged_) +
                                     (damaged_ > 1 ? " and " + std::to_string(damaged_ - 1) + " more" : "") +
-                                    ": what is in it is left out");
+                                    (database_ ? ": it is left out" : ": what is in it is left out"));
   }
 
   std::uint32_t chunk(const ChunkPlace& chunk) {
@@ -130,7 +133,8 @@ class Collector {
   }
 
   void broken(std::uint64_t at, const std::string& what) {
-    recording_.warnings.push_back(file_.string() + ": " + what + " at byte " + std::to_string(at) +
+    recording_.warnings.push_back(file_.string() + ": " + what +
+                                  (database_ ? " after message " : " at byte ") + std::to_string(at) +
                                   ": what stands before is used");
   }
 
@@ -182,6 +186,7 @@ class Collector {
 
   BagRecording& recording_;
   std::filesystem::path file_;
+  bool database_ = false;  // with messages that have ids, rather than bytes
   std::map<std::array<std::string, 3>, std::size_t> topics_;  // by name, type and encoding
   std::map<std::uint32_t, std::size_t> topic_of_;             // by the number of a channel of this file
   std::size_t damaged_ = 0;
@@ -193,27 +198,34 @@ static_assert(RecordSink<Collector>);
 }  // namespace bag_detail
 
 // Throws Error, in one line, when a file is no bag, or so far from one that nothing can be read.
+// `open_database`: null refuses bags in SQLite.
 [[nodiscard]] inline BagRecording read_recording(const std::vector<std::filesystem::path>& files,
-                                                 const ChunkCodec& codec) {
+                                                 const ChunkCodec& codec,
+                                                 OpenBagDatabase open_database = nullptr) {
   BagRecording recording;
   recording.files = files;
   bag_detail::Collector collector(recording);
   for (std::size_t i = 0; i < files.size(); ++i) {
     BagFile file(files[i]);
     std::string magic;
-    collector.begin_file(files[i]);
     const auto number = static_cast<std::uint16_t>(i);
     const auto begins = [&](std::string_view with) {
       return file.read(0, with.size(), magic) && magic == with;
     };
+    const bool database = begins(kSqliteMagic);
+    collector.begin_file(files[i], database);
     try {
       if (begins(kRos1Magic)) {
         read_ros1_bag(file, number, codec, collector);
       } else if (begins(kMcapMagic)) {
         read_mcap(file, number, codec, collector);
+      } else if (database) {
+        if (open_database == nullptr)
+          throw Error("is in SQLite, which is not read here; `ros2 bag convert` makes an MCAP file of it");
+        read_bag_database(*open_database(files[i]), number, codec, collector);
       } else {
         if (begins("#ROSBAG V1")) throw Error("is of format 1; convert it with `rosbag fix`");
-        throw Error("is neither a ROS 1 bag (#ROSBAG V2.0) nor an MCAP file");
+        throw Error("is neither a ROS 1 bag (#ROSBAG V2.0) nor an MCAP file nor one in SQLite");
       }
     } catch (const std::runtime_error& error) {
       throw Error(files[i].string() + ": " + error.what());

@@ -148,9 +148,11 @@ inline void tell_unreadable(Dataset& dataset, const BagTopic& topic) {
 
 // Fills a dataset in that unread_bag has begun. Throws Error, in one line, where there is no bag, no images,
 // or more than one topic with images and nobody says which.
-inline void fill_bag_frames(Dataset& dataset, const BagTopics& wanted, const ChunkCodec& codec) {
+// `open_database`: null refuses bags in SQLite.
+inline void fill_bag_frames(Dataset& dataset, const BagTopics& wanted, const ChunkCodec& codec,
+                            OpenBagDatabase open_database = nullptr) {
   namespace detail = bag_detail;
-  BagRecording recording = read_recording(bag_files(dataset.root), codec);
+  BagRecording recording = read_recording(bag_files(dataset.root), codec, open_database);
   dataset.warnings = recording.warnings;
   auto bag = std::make_shared<BagFrames>();
   const BagTopic& images = detail::image_topic(dataset, recording, wanted.images);

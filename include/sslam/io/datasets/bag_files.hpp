@@ -3,6 +3,7 @@
 // only to who opens it (bag.hpp), and are filled in then.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -27,15 +28,34 @@ namespace bag_detail {
                     [&](const auto& name) { return lower_case(name.extension().string()) == extension; });
 }
 
+[[nodiscard]] inline bool is_packed_bag(const std::filesystem::path& name) {
+  return name.extension() == ".zstd" && is_bag_name(name.stem());
+}
+
+// "walk_0.db3" and "walk_1.db3" are parts of "walk".
+[[nodiscard]] inline std::string name_without_number(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
+  const std::size_t line = name.rfind('_');
+  return line != std::string::npos && all_digits(std::string_view(name).substr(line + 1))
+             ? name.substr(0, line)
+             : name;
+}
+
 }  // namespace bag_detail
 
+// A recorder that was killed has not written metadata.yaml: the names of the parts tell then.
 [[nodiscard]] inline bool is_bag_folder(const std::filesystem::path& root) {
   std::error_code ignored;
-  return std::filesystem::is_regular_file(root / "metadata.yaml", ignored) &&
-         !list_files(root, [](const auto& name) {
-            return is_bag_name(name) || name.string().find(".mcap.") != std::string::npos ||
-                   name.string().find(".db3.") != std::string::npos;
-          }).empty();
+  const auto files = list_files(root, [](const auto& name) {
+    return (is_bag_name(name) && lower_case(name.extension().string()) != ".bag") ||
+           bag_detail::is_packed_bag(name);
+  });
+  if (files.empty() || std::filesystem::is_regular_file(root / "metadata.yaml", ignored))
+    return !files.empty();
+  const auto same = [&](const auto& file) {
+    return bag_detail::name_without_number(file) == bag_detail::name_without_number(files.front());
+  };
+  return std::all_of(files.begin(), files.end(), same);
 }
 
 [[nodiscard]] inline Dataset unread_bag(const std::filesystem::path& path) {
@@ -45,24 +65,21 @@ namespace bag_detail {
   return dataset;
 }
 
-// The files of the recording at `path`, in the order of their numbers. Throws Error where they are of a kind
-// that is not read.
+// The files of the recording at `path`, in the order of their numbers. Throws Error where nobody knows which.
 [[nodiscard]] inline std::vector<std::filesystem::path> bag_files(const std::filesystem::path& path) {
-  const auto refuse_sqlite = [&] {
-    throw Error(
-        path.string() +
-        ": is a ROS 2 bag in SQLite (.db3); `ros2 bag convert` makes an MCAP file of it, which is read");
-  };
   std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) {
-    if (lower_case(path.extension().string()) == ".db3") refuse_sqlite();
-    return {path};
+  if (!std::filesystem::is_directory(path, ignored)) return {path};
+  for (const auto& packed : list_files(path, bag_detail::is_packed_bag)) {
+    std::filesystem::path unpacked = packed;
+    if (!std::filesystem::exists(unpacked.replace_extension(), ignored))
+      throw Error(packed.string() + ": is packed as a whole; unpack it first, as by `zstd -d`");
   }
   std::vector<std::filesystem::path> files = bag_detail::files_with(path, ".mcap");
-  if (files.empty() && !bag_detail::files_with(path, ".db3").empty()) refuse_sqlite();
-  if (files.empty())
-    throw Error(path.string() +
-                ": holds no .mcap file; files that are packed as a whole are not read: unpack them first");
+  const std::vector<std::filesystem::path> databases = bag_detail::files_with(path, ".db3");
+  if (!files.empty() && !databases.empty())
+    throw Error(path.string() + ": holds files of both .mcap and .db3; name the one that is meant");
+  if (files.empty()) files = databases;
+  if (files.empty()) throw Error(path.string() + ": holds neither .mcap nor .db3 files");
   constexpr std::size_t kMostFiles = 65535;
   if (files.size() > kMostFiles) throw Error(path.string() + ": holds more than 65535 files");
   return files;

@@ -63,7 +63,7 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_colour_depth(root, options.frame_rate);
      }},
-    {Layout::kBag, "ROS bag", "metadata.yaml with *.mcap", is_bag_folder,
+    {Layout::kBag, "ROS bag", "*.mcap or *.db3", is_bag_folder,
      [](const FolderLayout::Path& root, const OpenOptions&) { return unread_bag(root); }},
     {Layout::kImages, "folder of images", "*.png, *.jpg, ...", is_image_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
@@ -100,7 +100,7 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
     if (is_video_name(path)) return read_video(path);
     if (is_bag_name(path)) return unread_bag(path);
     throw Error(path.string() +
-                ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap)");
+                ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap, db3)");
   }
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.matches(path)) return known.read(path, options);
