@@ -99,8 +99,9 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   if (!std::filesystem::is_directory(status)) {
     if (is_video_name(path)) return read_video(path);
     if (is_bag_name(path)) return unread_bag(path);
-    throw Error(path.string() +
-                ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap, db3)");
+    throw Error(
+        path.string() +
+        ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap, db3)");
   }
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.matches(path)) return known.read(path, options);
