@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The final pass, after the last frame: the whole map is adjusted at once, then every frame is tracked again
 // in it. A frame keeps the errors of the young map that it was tracked in otherwise, and one that had no pose
-// may get one.
+// may get one. Of a rolling shutter, whose read-out time is known, features are moved to the moment of the
+// middle row first, by the motion that the trajectory tells.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map_adjustment.hpp"
 #include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/worlds/rolling_shutter.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
 namespace sslam {
@@ -20,7 +22,8 @@ namespace sslam {
 template <Scalar S>
 struct FinalPassOptions {
   std::size_t max_frames = 3000;  // that are kept for it, 100 kB each; those after them stay as they are
-  int max_misses = 5;  // frames in a row without a pose, beyond which a sweep does not guess where it is
+  int max_misses = 5;   // frames in a row without a pose, beyond which a sweep does not guess where it is
+  double read_out = 0;  // seconds from the first row of an image to the last; 0: all rows at once
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -28,6 +31,8 @@ struct FinalPassOptions {
           "that are kept to be tracked again, 100 kB each; the others keep their poses");
     visit("max_misses", self.max_misses, Unit::kCount, 0, 1000,
           "frames in a row without a pose while those behind them get one");
+    visit("read_out", self.read_out, Unit::kSeconds, 0, 0.2,
+          "from the first row of an image to the last, of a rolling shutter; 0: all rows at once");
   }
 };
 static_assert(Described<FinalPassOptions<double>>);
@@ -66,20 +71,29 @@ class FinalPass {
   template <class Fallback, class Refinement>
   void run(Map<S>& map, Fallback& fallback, Refinement& refinement, TrajectoryLog<S>& log) {
     if (!map.empty() && !frames_.empty()) {
-      adjustment.optimise_all(map);
       log.sort();
-      last_.point_landmarks.clear();
-      last_.line_landmarks.clear();
-      for (std::size_t i = 0; i < frames_.size(); ++i) track(i, 1, map, fallback, refinement, log);
+      const bool rolling = options.read_out > 0;
+      // Each round knows the motion better by which the next one straightens.
+      for (int round = 0; round < (rolling ? kRounds : 1); ++round) {
+        if (rolling) straighten_keyframes(map, log);
+        adjustment.optimise_all(map);
+        last_.point_landmarks.clear();
+        last_.line_landmarks.clear();
+        previous_.reset();
+        for (std::size_t i = 0; i < frames_.size(); ++i) track(i, 1, map, fallback, refinement, log);
+      }
       previous_.reset();
       for (std::size_t i = frames_.size(); i-- > 0;)
         if (log.find(frames_[i].index) == nullptr) track(i, -1, map, fallback, refinement, log);
     }
     frames_.clear();
+    motions_.clear();
     previous_.reset();
   }
 
  private:
+  static constexpr int kRounds = 3;  // a fourth moves nothing any more
+
   // The frame that the sweep came through last and knows a pose of.
   struct Previous {
     std::size_t position;  // in frames_
@@ -94,12 +108,12 @@ class FinalPass {
     const TrajectoryEntry<S>* entry = log.find(frames_[i].index);
     if (entry != nullptr) {
       previous_ = Previous{i, map.surviving(entry->reference), TrajectoryLog<S>::pose(map, *entry)};
-      if (map.keyframes[map.index(previous_->reference)].frame.index == frames_[i].index) return;
+      if (is_keyframe(map.keyframes[map.index(previous_->reference)], frames_[i])) return;
     }
     if (!previous_ || distance(i, previous_->position) > static_cast<std::size_t>(options.max_misses) + 1)
       return;
     const KeyframeId reference = previous_->reference;
-    frame_.adopt(frames_[i]);
+    take_features(i, map);
     frame_.cam_from_world = previous_->cam_from_world;
     around_.read_back(map.keyframes[map.index(reference)]);
     recent_.gather(step > 0 ? last_ : around_, around_);
@@ -110,7 +124,44 @@ class FinalPass {
       previous_ = Previous{i, reference, frame_.cam_from_world};
       last_.read_back(frame_);
     }
-    std::swap(frames_[i], frame_.frame);
+    if (!straightens(i)) std::swap(frames_[i], frame_.frame);
+  }
+
+  static bool is_keyframe(const Keyframe<S>& keyframe, const Frame<S>& frame) noexcept {
+    return keyframe.frame.index == frame.index;
+  }
+  [[nodiscard]] bool straightens(std::size_t i) const noexcept { return i < motions_.size() && motions_[i]; }
+
+  // The frame's features into frame_, straightened where its motion is known: of a copy, as the next round
+  // begins with what was seen.
+  void take_features(std::size_t i, const Map<S>& map) {
+    if (!straightens(i)) return frame_.adopt(frames_[i]);
+    const Keyframe<S>& near = map.keyframes[map.index(previous_->reference)];
+    straight_ = frames_[i];
+    RollingShutter<S>{options.read_out}.straighten(
+        frames_[i], *motions_[i], inverse_depths(map, near, frames_[i], near.cam_from_world), straight_);
+    frame_.adopt(straight_);
+  }
+
+  // Finds out how the camera moves at each frame, and straightens the features of keyframes by it.
+  void straighten_keyframes(Map<S>& map, const TrajectoryLog<S>& log) {
+    std::vector<TimedPose<S>> poses(frames_.size());
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      poses[i].stamp = frames_[i].stamp;
+      if (const TrajectoryEntry<S>* entry = log.find(frames_[i].index))
+        poses[i].cam_from_world = TrajectoryLog<S>::pose(map, *entry);
+    }
+    motions_ = frame_motions<S>(poses);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      if (!motions_[i]) continue;
+      Keyframe<S>& keyframe = map.keyframes[map.index(map.surviving(log.find(frames_[i].index)->reference))];
+      const Frame<S>& raw = frames_[i];
+      const bool own = is_keyframe(keyframe, raw) && keyframe.frame.points.size() == raw.points.size() &&
+                       keyframe.frame.lines.size() == raw.lines.size();
+      if (own)
+        RollingShutter<S>{options.read_out}.straighten(
+            raw, *motions_[i], inverse_depths(map, keyframe, raw, keyframe.cam_from_world), keyframe.frame);
+    }
   }
 
   // Going backwards, a frame that has a pose is passed without being tracked again.
@@ -124,7 +175,9 @@ class FinalPass {
     return a > b ? a - b : b - a;
   }
 
-  std::vector<Frame<S>> frames_;  // without their normals, in order
+  std::vector<Frame<S>> frames_;                        // as they were seen, without their normals, in order
+  std::vector<std::optional<FrameMotion<S>>> motions_;  // of a rolling shutter, one a frame
+  Frame<S> straight_;
   std::optional<Previous> previous_;
   TrackedFrame<S> frame_, last_, around_;  // of the last two the matches alone
   RecentLandmarks<S> recent_;
