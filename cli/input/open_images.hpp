@@ -37,8 +37,9 @@ namespace sslam::cli {
     if (io::is_image_name(path))
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
     if (!io::is_video_name(path) && !io::is_bag_name(path))
-      throw Error(path.string() +
-                  ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");
+      throw Error(
+          path.string() +
+          ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");
   }
   return open_frames(path, {}, topics);
 }
