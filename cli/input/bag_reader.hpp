@@ -29,6 +29,8 @@ class BagReader {
 
  private:
   [[nodiscard]] std::string_view message(std::int64_t index);
+  // Into bytes_; false where the chunk is damaged.
+  [[nodiscard]] bool read_chunk(const io::ChunkPlace& chunk);
   [[nodiscard]] cv::Mat decode(const io::MessageFields& fields, const std::string& name, cv::Size expected,
                                std::string& why) const;
   [[nodiscard]] cv::Mat decode_depth(const io::MessageFields& fields, const std::string& name,
@@ -38,9 +40,7 @@ class BagReader {
 
   const io::BagFrames& bag_;
   const io::BagFrames::Stream& stream_;
-  [[nodiscard]] bool read_chunk(const io::ChunkPlace& chunk);
-
-  std::optional<std::uint16_t> open_;  // which of the bag's files is
+  std::optional<std::uint16_t> open_;  // the number of the bag's file that is open
   std::optional<io::BagFile> file_;
   std::unique_ptr<io::BagDatabase> database_;
   std::string scratch_, bytes_;

@@ -40,6 +40,7 @@
 #include "sslam/geometry/nearest_rotation.hpp"
 #include "sslam/geometry/plane3.hpp"
 #include "sslam/geometry/resized_camera.hpp"
+#include "sslam/geometry/row_offset.hpp"
 #include "sslam/geometry/se3.hpp"
 #include "sslam/geometry/sim3.hpp"
 #include "sslam/geometry/so3.hpp"

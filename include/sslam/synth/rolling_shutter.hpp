@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sslam/geometry/row_offset.hpp"
 #include "sslam/synth/shutter.hpp"
 
 namespace sslam::synth {
@@ -20,7 +21,7 @@ struct Shutter {
 // When the middle of a row's exposure is; of the frame's `seconds` for the row in the middle of the image.
 [[nodiscard]] inline double row_moment(const Shutter& shutter, double seconds, double row,
                                        int rows) noexcept {
-  return seconds + shutter.read_out * ((row + 0.5) / rows - 0.5);
+  return seconds + row_offset<double>(shutter.read_out, row, rows);
 }
 
 // How many bands of rows are rendered, each at the moment of its middle row: a tenth of a pixel of motion a

@@ -39,7 +39,7 @@ std::vector<Frame<double>> rolled_frames(Simulation& simulation) {
       Vec2<double>& pixel = frame.points[i].pixel;
       const Vec2<double> noise = pixel - frame.pinhole.project(pose_at(frame.stamp) * position);
       for (int round = 0; round < 4; ++round) {  // the row that sees it depends on where it is seen
-        const double moment = kReadOut * ((pixel.y() + 0.5) / frame.height - 0.5);
+        const double moment = row_offset<double>(kReadOut, pixel.y(), frame.height);
         pixel = frame.pinhole.project(pose_at(frame.stamp + moment) * position) + noise;
       }
     }

@@ -39,11 +39,11 @@ class BagDatabase {
   [[nodiscard]] virtual std::vector<std::pair<std::int64_t, BagChannel>> topics() = 0;
   // In the order in which they were recorded; empty: there are no more.
   [[nodiscard]] virtual std::optional<DatabaseMessage> next() = 0;
-  // The data of one; false: there is none of this id.
+  // Reads the data of the message with this id into `out`; false where there is no such message.
   [[nodiscard]] virtual bool read(std::int64_t id, std::string& out) = 0;
 };
 
-// Throws Error, in a few words, where the file is none.
+// Throws Error, in a few words, where the file is no such bag.
 using OpenBagDatabase = std::unique_ptr<BagDatabase> (*)(const std::filesystem::path& path);
 
 namespace database_detail {

@@ -92,7 +92,7 @@ class FinalPass {
   }
 
  private:
-  static constexpr int kRounds = 3;  // a fourth moves nothing any more
+  static constexpr int kRounds = 3;  // a fourth gains a tenth at most
 
   // The frame that the sweep came through last and knows a pose of.
   struct Previous {
@@ -136,11 +136,16 @@ class FinalPass {
   // begins with what was seen.
   void take_features(std::size_t i, const Map<S>& map) {
     if (!straightens(i)) return frame_.adopt(frames_[i]);
-    const Keyframe<S>& near = map.keyframes[map.index(previous_->reference)];
     straight_ = frames_[i];
-    RollingShutter<S>{options.read_out}.straighten(
-        frames_[i], *motions_[i], inverse_depths(map, near, frames_[i], near.cam_from_world), straight_);
+    straighten(i, map, map.keyframes[map.index(previous_->reference)], straight_);
     frame_.adopt(straight_);
+  }
+
+  // The features of frame i, whose motion is known, into `out`; their depths are those that the keyframe
+  // tells.
+  void straighten(std::size_t i, const Map<S>& map, const Keyframe<S>& keyframe, Frame<S>& out) const {
+    const InverseDepths<S> depths = inverse_depths(map, keyframe, frames_[i], keyframe.cam_from_world);
+    RollingShutter<S>{options.read_out}.straighten(frames_[i], *motions_[i], depths, out);
   }
 
   // Finds out how the camera moves at each frame, and straightens the features of keyframes by it.
@@ -158,9 +163,7 @@ class FinalPass {
       const Frame<S>& raw = frames_[i];
       const bool own = is_keyframe(keyframe, raw) && keyframe.frame.points.size() == raw.points.size() &&
                        keyframe.frame.lines.size() == raw.lines.size();
-      if (own)
-        RollingShutter<S>{options.read_out}.straighten(
-            raw, *motions_[i], inverse_depths(map, keyframe, raw, keyframe.cam_from_world), keyframe.frame);
+      if (own) straighten(i, map, keyframe, keyframe.frame);
     }
   }
 

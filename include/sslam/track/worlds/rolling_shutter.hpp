@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sslam/core/median.hpp"
+#include "sslam/geometry/row_offset.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/residual/point_reprojection.hpp"
 #include "sslam/track/worlds/frame_motion.hpp"
@@ -26,9 +27,8 @@ struct RollingShutter {
   // by the row, and xi by the camera's motion.
   [[nodiscard]] Vec2<S> straightened(const Frame<S>& frame, const FrameMotion<S>& motion,
                                      const Vec2<S>& pixel, S inverse_depth) const noexcept {
-    const S rows = static_cast<S>(frame.height);
-    const S seconds = static_cast<S>(read_out) * ((pixel.y() + S(0.5)) / rows - S(0.5));
-    const Vec6<S> moved = motion.until(seconds);
+    const auto rows = static_cast<S>(frame.height);
+    const Vec6<S> moved = motion.until(row_offset(static_cast<S>(read_out), pixel.y(), rows));
     const Vec3<S> ray = frame.pinhole.unproject(pixel) - inverse_depth * moved.template tail<3>();
     const Vec3<S> turned = SO3<S>::exp(Vec3<S>(-moved.template head<3>())) * ray;
     return turned.z() > kMinDepth<S> ? Vec2<S>(frame.pinhole.project(turned)) : pixel;
