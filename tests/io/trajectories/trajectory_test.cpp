@@ -167,6 +167,23 @@ TEST_CASE("Trajectories of other programs are told by their rows") {
                  "k_times.txt: has 2 times for the 3 poses"));
 }
 
+TEST_CASE("Open3D's trajectory.log is read by the numbers of its frames") {
+  const testing::ScratchFolder scratch;
+  const std::string matrix = "1 0 0 2\n0 0 -1 3\n0 1 0 4\n0 0 0 1\n";
+  const auto path = scratch.write("trajectory.log", "0\t0\t1\n" + matrix + "2 2 3\n" + matrix);
+  io::Warnings warnings;
+  const io::PoseFile file = io::read_pose_file(path, warnings);
+  CHECK(warnings.empty());
+  CHECK(file.counted);
+  REQUIRE(file.trajectory.size() == 2);
+  CHECK(file.trajectory[1].stamp == 2);
+  CHECK(file.trajectory[1].world_from_cam.translation == Vec3<double>(2, 3, 4));
+  scratch.write("times.txt", "10.5\n10.7\n");
+  CHECK(io::read_pose_file(path, warnings).trajectory[1].stamp == 10.7);
+  scratch.write("trajectory.log", "0 0 1\n" + matrix + "1 1.5 2\n" + matrix);
+  CHECK(contains(error_of([&] { (void)io::read_pose_file(path, warnings); }), "has 3 columns"));
+}
+
 TEST_CASE("Stamps that go backwards or repeat are put in order with a warning") {
   const testing::ScratchFolder scratch;
   const auto path = scratch.write("t.txt",

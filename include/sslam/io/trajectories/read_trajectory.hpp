@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories as programs write them, told by their rows: TUM, EuRoC, KITTI with its times, 4x4 matrices.
+// Trajectories as programs write them, told by their rows: TUM, EuRoC, KITTI with its times, 4x4 matrices,
+// also with the heads of Open3D.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,6 +54,26 @@ inline void join_matrices(std::vector<TextRow>& rows) {
     rows[i] = std::move(joined);
   }
   rows.resize(rows.size() / 4);
+}
+
+// Open3D's trajectory.log has three whole numbers above each matrix over four rows. Takes them out, and
+// answers with the first of each, the number of the frame; empty: this is another file.
+[[nodiscard]] inline std::vector<double> take_log_heads(std::vector<TextRow>& rows) {
+  constexpr std::size_t kGroup = 5;
+  std::vector<double> numbers;
+  if (rows.size() % kGroup != 0) return {};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool head = i % kGroup == 0;
+    const std::vector<std::string_view>& cells = rows[i].cells;
+    if (cells.size() != (head ? 3U : 4U)) return {};
+    if (!head) continue;
+    for (const std::string_view cell : cells)
+      if (!parse_number<std::int64_t>(cell)) return {};
+    numbers.push_back(static_cast<double>(*parse_number<std::int64_t>(cells.front())));
+  }
+  std::size_t at = 0;
+  std::erase_if(rows, [&at](const TextRow&) { return at++ % kGroup == 0; });
+  return numbers;
 }
 
 // The number of cells that most rows have, among those of a layout if there are any.
@@ -171,6 +193,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   if (rows.empty())
     throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
   const std::string_view head(text.data(), static_cast<std::size_t>(rows.front().text.data() - text.data()));
+  const std::vector<double> numbers = trajectory_detail::take_log_heads(rows);
   trajectory_detail::join_matrices(rows);
   const std::size_t width = trajectory_detail::usual_width(rows);
   const RowLayout layout = trajectory_detail::layout_of(rows, width, head, path, warnings);
@@ -193,7 +216,8 @@ inline void join_matrices(std::vector<TextRow>& rows) {
     } else if (row->no_pose) {
       ++result.no_pose;
     } else {
-      const double place = clock.empty() ? static_cast<double>(i) : clock[i];
+      const double counted = numbers.empty() ? static_cast<double>(i) : numbers[i];
+      const double place = clock.empty() ? counted : clock[i];
       result.trajectory.push_back({row->stamp.value_or(place), *row->pose});
     }
   }
