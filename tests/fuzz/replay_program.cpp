@@ -74,7 +74,7 @@ TEST_CASE("headers of images that are spoilt") {
 TEST_CASE("bags that are spoilt") {
   using namespace sslam::made_bags;
   std::vector<std::string> inputs;
-  for (unsigned seed = 0; seed < 15; ++seed) {
+  for (unsigned seed = 0; seed < 18; ++seed) {
     std::string bag(8192, '\0');
     bag.resize(seed_of_bag(reinterpret_cast<std::uint8_t*>(bag.data()), 0, bag.size(), seed));
     inputs.push_back(bag);

@@ -226,6 +226,26 @@ TEST_CASE("What is no bag, or one of another kind, gets one line") {
                  "a.mcap.zstd: is packed as a whole; unpack it first"));
 }
 
+TEST_CASE("Parts that metadata.yaml lists and that are not there are told") {
+  const ScratchFolder scratch;
+  const auto folder = scratch.path() / "walk";
+  std::filesystem::create_directory(folder);
+  const auto told = [&](const std::string& list) {
+    std::ofstream(folder / "metadata.yaml")
+        << "rosbag2_bagfile_information:\n  version: 9\n  relative_file_paths:\n" + list + "  duration:\n";
+    return io::missing_parts(folder);
+  };
+  std::ofstream(folder / "walk_0.mcap") << "?";
+  std::ofstream(folder / "walk _1.mcap") << "?";
+  CHECK(told("    - walk_0.mcap\n    - \"walk _1.mcap\"\n").empty());
+  CHECK(
+      told("  - walk/walk_0.mcap.zstd\n  - walk _1.mcap\n").empty());  // that was unpacked; as old ones write
+  CHECK(contains(told("    - walk_0.mcap\n    - walk_2.mcap\n"),
+                 "metadata.yaml: lists walk_2.mcap, not there"));
+  CHECK(contains(told("    - a.mcap\n    - b.mcap\n    - c.mcap\n"), "lists a.mcap and 2 more, not there"));
+  CHECK(io::missing_parts(scratch.path()).empty());
+}
+
 TEST_CASE("Names in a bag cannot break a message into lines") {
   const ScratchFolder scratch;
   const std::string bad = connection_1(1, "/a\nb", kImage) + message_1(1, image_1(1, "x\ny")) +

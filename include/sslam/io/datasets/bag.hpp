@@ -154,6 +154,8 @@ inline void fill_bag_frames(Dataset& dataset, const BagTopics& wanted, const Chu
   namespace detail = bag_detail;
   BagRecording recording = read_recording(bag_files(dataset.root), codec, open_database);
   dataset.warnings = recording.warnings;
+  if (const std::string missing = missing_parts(dataset.root); !missing.empty())
+    dataset.warnings.push_back(missing);
   auto bag = std::make_shared<BagFrames>();
   const BagTopic& images = detail::image_topic(dataset, recording, wanted.images);
   detail::fill_frames(dataset, images, *bag);

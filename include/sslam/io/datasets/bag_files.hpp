@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sslam/io/bags/messages.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
@@ -63,6 +64,48 @@ namespace bag_detail {
   dataset.layout = Layout::kBag;
   dataset.root = path.has_filename() ? path : path.parent_path();  // "folder/" is no name
   return dataset;
+}
+
+namespace bag_detail {
+
+// The names of the parts by metadata.yaml, as the recorder writes it: a list with one a line.
+[[nodiscard]] inline std::vector<std::filesystem::path> listed_parts(const std::filesystem::path& metadata) {
+  std::vector<std::filesystem::path> parts;
+  const std::string text = read_text(metadata);
+  bool listed = false;
+  for (const TextRow& row : split_rows(text)) {
+    const bool item = row.cells.size() > 1 && row.cells[0] == "-";
+    if (listed && !item) break;
+    if (listed) {  // a name may hold blanks
+      const char* const begin = row.cells[1].data();
+      const char* const end = row.cells.back().data() + row.cells.back().size();
+      parts.emplace_back(std::string(begin, end));
+    }
+    listed = listed || row.cells[0] == "relative_file_paths:";
+  }
+  return parts;
+}
+
+}  // namespace bag_detail
+
+// Of a folder whose metadata.yaml lists parts that are not there, a line that says so; else empty.
+[[nodiscard]] inline std::string missing_parts(const std::filesystem::path& folder) {
+  const std::filesystem::path metadata = folder / "metadata.yaml";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(metadata, ignored)) return {};
+  std::string first;
+  std::size_t missing = 0;
+  for (const std::filesystem::path& listed : bag_detail::listed_parts(metadata)) {
+    std::filesystem::path part = folder / listed.filename();  // some recorders put the folder in front
+    const bool there =
+        std::filesystem::exists(part, ignored) ||
+        (part.extension() == ".zstd" && std::filesystem::exists(part.replace_extension(), ignored));
+    if (!there && missing++ == 0) first = shown_word(listed.filename().string());
+  }
+  if (missing == 0) return {};
+  return metadata.string() + ": lists " + first +
+         (missing > 1 ? " and " + std::to_string(missing - 1) + " more" : "") +
+         ", not there: what the other parts hold is used";
 }
 
 // The files of the recording at `path`, in the order of their numbers. Throws Error where nobody knows which.
