@@ -309,6 +309,8 @@ TEST_CASE("What is no dataset is told what was looked for") {
   scratch.write("notes.txt");
   CHECK(contains(error_opening(scratch.path()), "no dataset here; looked for"));
   CHECK(contains(error_opening(scratch.path() / "notes.txt"), "neither a folder nor a video"));
+  scratch.write("one.png", "?");
+  CHECK(contains(error_opening(scratch.path() / "one.png"), "is one image; a run needs many"));
 }
 
 TEST_CASE("Slices keep places in the whole sequence") {

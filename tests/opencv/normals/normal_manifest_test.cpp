@@ -43,6 +43,10 @@ TEST_CASE("a manifest is read", "[normals]") {
   CHECK(m.mask == "planar");
   CHECK(m.confidence == "confidence");
   CHECK(m.plane_sigma_deg == 5);  // unless the manifest says otherwise
+  const testing::ScratchFolder folder;
+  const auto unsealed =
+      changed(folder, fixtures() / "tiny_normals.json", {{"\"format\"", "\"sha256\": \"\", \"format\""}});
+  CHECK(read_normal_manifest(unsealed).sha256.empty());
 }
 
 TEST_CASE("a wrong field of a manifest is named", "[normals]") {

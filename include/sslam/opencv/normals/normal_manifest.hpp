@@ -70,7 +70,8 @@ class Reader {
   [[nodiscard]] std::string text(const cv::FileNode& parent, const char* key, const std::string& where,
                                  const char* otherwise = nullptr) const {
     const cv::FileNode node = parent[key];
-    if (node.empty() && otherwise != nullptr) return otherwise;
+    const bool untold = node.empty() || (node.isString() && node.string().empty());
+    if (untold && otherwise != nullptr) return otherwise;
     if (!node.isString() || node.string().empty()) fail(where + "." + key, "missing, or not a name");
     return node.string();
   }
