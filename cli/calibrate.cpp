@@ -15,6 +15,7 @@
 #include "cli/commands.hpp"
 #include "cli/input/camera_yaml.hpp"
 #include "cli/input/open_images.hpp"
+#include "cli/input/topic_options.hpp"
 #include "cli/input/video_reader.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 
 struct CalibrateSettings {
   std::string images;
+  io::BagTopics topics;
   std::string print;  // file for the board itself, instead of images; empty: none
   BoardSettings board;
   std::string out = "camera.yaml";
@@ -117,7 +119,7 @@ void run_calibrate(const CalibrateSettings& settings) {
   const LensKind kind = settings.fisheye ? LensKind::kFisheye
                         : settings.k3    ? LensKind::kThird
                                          : LensKind::kPinhole;
-  const io::Dataset dataset = open_images(settings.images);
+  const io::Dataset dataset = open_images(settings.images, settings.topics);
   print_warnings(dataset.warnings);
   const Board board(settings.board);
   io::prepare_output_folder(folder_of(settings.out));
@@ -179,8 +181,10 @@ void add_calibrate_command(CLI::App& app) {
       app.add_subcommand("calibrate", "A camera file from images of a chessboard or a ChArUco board");
   auto s = std::make_shared<CalibrateSettings>();
   CLI::Option* const images =
-      command->add_option("IMAGES", s->images, "folder of images, quoted glob, or video; not with --print")
+      command
+          ->add_option("IMAGES", s->images, "folder of images, quoted glob, video, or bag; not with --print")
           ->type_name("FILE");
+  add_topic_option(*command, s->topics);
   add_board_options(*command, s->board);
   command->add_option("-o,--out", s->out, "camera file; NAME_coverage.png goes beside it")
       ->capture_default_str()

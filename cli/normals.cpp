@@ -16,6 +16,7 @@
 #include "cli/input/normal_files.hpp"
 #include "cli/input/open_images.hpp"
 #include "cli/input/shipped_model.hpp"
+#include "cli/input/topic_options.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/progress_options.hpp"
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 
 struct NormalsSettings {
   std::string images;
+  io::BagTopics topics;
   std::string model;  // ONNX file or manifest; empty: the one that comes with sslam
   CameraWish camera;  // empty: what is known about the images, else assumed
   std::string out = "normals";
@@ -69,7 +71,7 @@ class NormalWriter {
 
   // False, with the reason in `why`, when the image has no normals. Throws Error when they cannot be
   // written.
-  [[nodiscard]] bool write(const cv::Mat& image, const std::string& stem, std::string& why) {
+  [[nodiscard]] bool write(cv::Mat image, const std::string& stem, std::string& why) {
     if (!stems_.insert(stem).second) {
       why = "another image of this name came before";
       return false;
@@ -130,7 +132,7 @@ void print_summary(const NormalWriter& writer, const fs::path& model, const fs::
 }
 
 void run_normals(const NormalsSettings& settings) {
-  const io::Dataset dataset = open_images(settings.images);
+  const io::Dataset dataset = open_images(settings.images, settings.topics);
   print_warnings(dataset.warnings);
   OnnxNormals model = open_model(settings.model);
   const NormalManifest manifest = model.manifest();
@@ -169,13 +171,15 @@ void add_normals_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "normals", "Show what the normal network sees in images: normals to reuse, pictures to look at");
   auto s = std::make_shared<NormalsSettings>();
-  command->add_option("IMAGES", s->images, "image, folder of images, dataset, quoted glob, or video")
+  command->add_option("IMAGES", s->images, "image, folder of images, dataset, quoted glob, video, or bag")
       ->required();
+  add_topic_option(*command, s->topics);
   command
       ->add_option("--model", s->model,
                    "ONNX file with its manifest (.json) beside it; default the network that comes with sslam")
       ->type_name("FILE");
   add_camera_options(*command, s->camera.file, s->camera.focal, s->camera.fov);
+  add_undistort_option(*command, s->camera.undistort_fov);
   command->add_option("-o,--out", s->out, "folder for NAME.png (normals), NAME_overlay.jpg and encoding.txt")
       ->capture_default_str()
       ->type_name("DIR");

@@ -11,6 +11,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/input/camera_options.hpp"
+#include "cli/input/topic_options.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/config_file.hpp"
@@ -19,7 +20,6 @@
 #include "cli/shell/progress_options.hpp"
 #include "cli/stream/stream_name.hpp"
 #include "cli/view/view_options.hpp"
-#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -32,20 +32,10 @@ void add_input_options(CLI::App& command, RunSettings& s) {
           "quoted glob of images, a video, a bag of ROS 1 or 2 (bag, mcap, db3), " +
               std::string(kStreamKinds))
       ->required();
-  command
-      .add_option("--topic", s.topics.images, "Topic of a bag's images; not needed where it has one alone")
-      ->type_name("NAME");
-  command
-      .add_option("--depth-topic", s.topics.depth,
-                  "Topic of a bag's depth images, for the same pixels; not needed where it has one alone")
-      ->type_name("NAME");
+  add_topic_option(command, s.topics);
+  add_depth_topic_option(command, s.topics);
   add_camera_options(command, s.camera, s.focal, s.fov);
-  command
-      .add_option("--undistort-fov", s.undistort_fov,
-                  "Of a lens that is too wide for a pinhole: degrees across of the view that its images are "
-                  "undistorted to; default 110, or what it sees")
-      ->check(CLI::Range(30.0, WideView::kWidest))
-      ->type_name("DEGREES");
+  add_undistort_option(command, s.undistort_fov);
   static const std::map<std::string, CalibrationMode> kCalibrations{{"fixed", CalibrationMode::kFixed},
                                                                     {"refine", CalibrationMode::kRefine},
                                                                     {"find", CalibrationMode::kFind}};
@@ -152,13 +142,17 @@ void add_output_options(CLI::App& command, RunSettings& s) {
 
 }  // namespace
 
+void add_run_options(CLI::App& command, RunSettings& settings) {
+  add_input_options(command, settings);
+  add_tracking_options(command, settings);
+  add_output_options(command, settings);
+}
+
 void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Track a sequence: trajectory, map, figures and pictures");
   auto settings = std::make_shared<RunSettings>();
   add_config_option(*command);
-  add_input_options(*command, *settings);
-  add_tracking_options(*command, *settings);
-  add_output_options(*command, *settings);
+  add_run_options(*command, *settings);
   add_progress_options(*command, settings->verbosity, true);
   put_in_group(*command, "Messages", {"--quiet", "--verbose", "--json-progress"});
   command->callback([settings] { run(*settings); });

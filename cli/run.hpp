@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sslam run` as a function, so that `sslam demo` calls the same.
+// `sslam run` as a function, so that `sslam demo` calls the same, and its options, which suites of `sslam
+// batch` have too.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,10 @@
 #include "cli/shell/progress.hpp"
 #include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace sslam::cli {
 
@@ -57,6 +62,9 @@ struct RunSettings {
   double frame_rate = 30;  // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
 };
+
+// All options of `sslam run` but those of its messages; `settings` outlive the command.
+void add_run_options(CLI::App& command, RunSettings& settings);
 
 // Tracks the dataset and writes everything into settings.out. Throws Error; Stop when interrupted.
 void run(RunSettings settings);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sslam/io/datasets/known_cameras.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::cli {
 
@@ -29,6 +30,15 @@ inline void add_camera_options(CLI::App& command, std::string& file, double& foc
       ->type_name("DEGREES")
       ->excludes(camera)
       ->excludes(pixels);
+}
+
+inline void add_undistort_option(CLI::App& command, double& fov) {
+  command
+      .add_option("--undistort-fov", fov,
+                  "Of a lens that is too wide for a pinhole: degrees across of the view that its images are "
+                  "undistorted to; default 110, or what it sees")
+      ->check(CLI::Range(30.0, WideView::kWidest))
+      ->type_name("DEGREES");
 }
 
 }  // namespace sslam::cli

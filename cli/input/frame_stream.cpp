@@ -139,7 +139,10 @@ void FrameStream::fill(SourceFrame& frame, ExtractedFrame& out) {
     std::string maskless;
     input.mask = options_.masks.of(input.name, maskless);
     if (!maskless.empty()) out.warning = maskless + "; all of the frame is used";
-    if (options_.view != nullptr) look_through(*options_.view, input);
+    if (options_.view != nullptr) {  // depth has been refused
+      input.image = options_.view->of(input.image);
+      input.mask = options_.view->mask(input.mask);
+    }
     if (options_.recording != nullptr)
       options_.recording->add(entry.stamp * dataset_.seconds_per_stamp, frame, out.warning);
   }
@@ -158,17 +161,6 @@ std::string FrameStream::fault_of_normals(const ExtractedFrame& frame) {
   if (whole && !told_.insert(status).second) return {};
   return frame.entry.image + ": " + name(status) + "; lines alone for this frame" +
          (whole ? ", and for others like it, which metrics.json counts" : "");
-}
-
-// Image and mask of a wide lens; depth has been refused.
-void FrameStream::look_through(const WideView& view, ImageInput& input) {
-  input.image = view.of(input.image);
-  cv::Mat mask = input.mask.empty() ? cv::Mat() : view.of(input.mask, cv::INTER_NEAREST);
-  if (mask.empty())
-    mask = view.seen();
-  else if (!view.seen().empty())
-    mask &= view.seen();
-  input.mask = mask;
 }
 
 void FrameStream::read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out) {

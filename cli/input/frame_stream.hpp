@@ -65,7 +65,6 @@ class FrameStream {
   [[nodiscard]] bool wait_until_due(std::unique_lock<std::mutex>& lock, const io::FrameEntry& entry);
   void fill(SourceFrame& frame, ExtractedFrame& out);
   void read(SourceFrame& frame);
-  static void look_through(const WideView& view, ImageInput& input);
   void read_depth(const io::FrameEntry& entry, ImageInput& input, ExtractedFrame& out);
 
   io::Dataset& dataset_;

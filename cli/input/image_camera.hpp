@@ -23,10 +23,14 @@ class ImageCamera {
         known_(wish_.focal > 0 || wish_.fov > 0 ? std::nullopt : find_camera(wish_.file, dataset)),
         focal_per_width_(focal_per_width) {}
 
-  // The first image's size is that of all. Throws Error when the calibration cannot be that image's.
-  [[nodiscard]] Camera<double> of(const cv::Mat& image) {
+  // The first image's size is that of all. An image of a wide lens becomes what this camera sees of it.
+  // Throws Error when the calibration cannot be that image's.
+  [[nodiscard]] Camera<double> of(cv::Mat& image) {
     if (!std::exchange(told_, true)) settle(image.cols, image.rows);
-    return known_ ? known_->camera : assumed(image.cols, image.rows);
+    if (!known_) return assumed(image.cols, image.rows);
+    const bool same = image.cols == known_->camera.width && image.rows == known_->camera.height;
+    if (view_ && same) image = view_->of(image);
+    return known_->camera;
   }
 
  private:
@@ -38,10 +42,9 @@ class ImageCamera {
                  size_text(width, height) + " (--camera gives another)");
       return;
     }
-    if (known_->wide)
-      throw Error(known_->source +
-                  ": a lens that is too wide for this; undistort the images, as sslam run does");
     fit_camera(known_->camera, width, height, known_->source, known_->notes, known_->warnings);
+    take_view(*known_, wish_.undistort_fov);
+    if (known_->wide) view_.emplace(*known_->wide, known_->view_fov);
     print_notes(*known_);
   }
 
@@ -51,6 +54,7 @@ class ImageCamera {
 
   CameraWish wish_;
   std::optional<CameraChoice> known_;
+  std::optional<WideView> view_;  // of a wide lens
   double focal_per_width_;
   bool told_ = false;
 };

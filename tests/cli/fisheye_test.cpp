@@ -114,4 +114,18 @@ TEST_CASE("run takes another view of a wide lens, and refuses what belongs to it
   require_misused(run.run("--undistort-fov 170"), "--undistort-fov");
 }
 
+TEST_CASE("normals looks at a wide lens's image through a pinhole's view") {
+  const ScratchFolder scratch;
+  const Outcome outcome = run_program("normals " + (walk() / "rgb/0.jpg").string() + " --camera " +
+                                      (walk() / "camera.yaml").string() + " --undistort-fov 80 --model " +
+                                      SSLAM_FIXTURES + "/tiny_normals.onnx --out " + scratch.path().string());
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.text.find("a pinhole's view of 80 degrees") != std::string::npos);
+  // The corner is outside the lens's circle, and inside the view.
+  const cv::Rect corner(0, 0, 16, 16);
+  CHECK(cv::mean(cv::imread((walk() / "rgb/0.jpg").string())(corner))[1] < 8);
+  CHECK(cv::mean(cv::imread((scratch.path() / "0_overlay.jpg").string())(corner))[1] > 32);
+}
+
 }  // namespace fisheye_test

@@ -56,6 +56,14 @@ class WideView {
     return view;
   }
 
+  // Which pixels of the view to use, of an image with this mask; empty, of both: all.
+  [[nodiscard]] cv::Mat mask(const cv::Mat& of_image) const {
+    if (of_image.empty()) return seen();
+    cv::Mat mask = of(of_image, cv::INTER_NEAREST);
+    if (!whole_) mask &= seen_;
+    return mask;
+  }
+
   // Where the lens sees something, less a rim in which its image's edge would be a feature; empty:
   // everywhere.
   [[nodiscard]] const cv::Mat& seen() const noexcept { return whole_ ? kEverywhere : seen_; }
