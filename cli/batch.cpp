@@ -58,7 +58,7 @@ std::size_t write_results(const fs::path& folder, const std::vector<fs::path>& a
   const Results results = read_results(folder, against);
   const ResultPage page = make_page(results);
   write_tables(folder, results, page);
-  std::fputs(markdown_page({page.title, {page.tables.front()}, page.notes}).c_str(), stdout);
+  std::fputs(markdown_page({page.title, {page.tables.front()}, {}, page.notes}).c_str(), stdout);
   std::printf(
       "\nwritten to       %s: tables.md, tables.tex, tables.html, table.csv, common_frames.csv, runs.csv\n",
       folder.c_str());

@@ -24,10 +24,12 @@ void refuse_foreign(const fs::path& folder) {
   throw Error(folder.string() + ": holds something that sslam batch has not written; choose an empty folder");
 }
 
-void write_facts(const fs::path& folder, const std::string& name, const SequenceFacts& facts) {
-  const fs::path frames = folder / frames_file_of(name), truth = folder / truth_file_of(name);
-  fs::create_directories(frames.parent_path());
-  io::write_stamps(frames, facts.frames);
+void write_facts(const fs::path& folder, const SuiteSequence& sequence, const SequenceFacts& facts) {
+  const fs::path truth = folder / truth_file_of(sequence.name);
+  fs::create_directories(truth.parent_path());
+  const auto starts = starts_of(sequence);
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    io::write_stamps(folder / frames_file_of(sequence.name, starts[i]), facts.frames[i]);
   fs::remove(truth);  // an earlier suite may have had one
   if (!facts.truth.empty()) io::write_trajectory(truth, facts.truth);
 }
@@ -71,7 +73,7 @@ BatchFolder::~BatchFolder() {
 
 void BatchFolder::prepare(const Suite& suite, const Plan& plan,
                           const std::vector<SequenceFacts>& facts) const {
-  for (std::size_t i = 0; i < plan.sequences.size(); ++i) write_facts(folder_, plan.sequences[i], facts[i]);
+  for (std::size_t i = 0; i < plan.sequences.size(); ++i) write_facts(folder_, suite.sequences[i], facts[i]);
   copy_references(folder_, suite, plan);
   write_plan(folder_, plan);
 }

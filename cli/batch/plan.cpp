@@ -2,7 +2,9 @@
 #include "cli/batch/plan.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "cli/batch/suite_options.hpp"
 #include "cli/results/eval_report.hpp"
 #include "cli/results/json_file.hpp"
 
@@ -12,48 +14,33 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> arguments_of(const Suite& suite, const SuiteSequence& sequence,
-                                      const SuiteMethod& method, std::uint64_t seed) {
-  std::vector<std::string> arguments{"run",         sequence.dataset, "--preset",
-                                     method.preset, "--seed",         std::to_string(seed)};
-  const auto add = [&arguments](const std::string& option, const std::string& value) {
-    arguments.push_back(option);
-    arguments.push_back(value);
-  };
-  if (const std::string normals = normals_for(method, sequence); !normals.empty()) add("--normals", normals);
-  if (!sequence.camera.empty()) add("--camera", sequence.camera);
-  if (sequence.slice.start != 0) add("--start", std::to_string(sequence.slice.start));
-  if (sequence.slice.end >= 0) add("--end", std::to_string(sequence.slice.end));
-  if (sequence.slice.stride != 1) add("--stride", std::to_string(sequence.slice.stride));
-  if (sequence.frame_rate != SuiteSequence{}.frame_rate)
-    add("--fps", io::exact_decimal(sequence.frame_rate, 1));
-  for (const std::string& text : method.set) add("--set", text);
-  if (!suite.report) arguments.emplace_back("--no-report");
-  return arguments;
-}
-
 void plan_runs(const Suite& suite, const SuiteSequence& sequence, const SuiteMethod& method, Plan& plan) {
-  const std::string folder = "runs/" + folder_name(sequence.name) + "/" + folder_name(method.name) + "/seed-";
-  for (const std::uint64_t seed : method.seeds) {
-    for (int repeat = 1; repeat <= method.repeats; ++repeat) {
-      PlannedRun run{sequence.name, method.name, folder + std::to_string(seed),
-                     arguments_of(suite, sequence, method, seed),
-                     sequence.name + ", " + method.name + ", seed " + std::to_string(seed)};
-      if (method.repeats > 1) {
-        run.folder += "-repeat-" + std::to_string(repeat);
-        run.title += ", repeat " + std::to_string(repeat);
+  const std::string folder = "runs/" + folder_name(sequence.name) + "/" + folder_name(method.name) + "/";
+  for (const std::optional<std::int64_t>& start : starts_of(sequence)) {
+    for (const std::uint64_t seed : method.seeds) {
+      for (int repeat = 1; repeat <= method.repeats; ++repeat) {
+        PlannedRun run{sequence.name,
+                       method.name,
+                       folder,
+                       run_arguments(suite, sequence, method, seed, start),
+                       sequence.name + ", " + method.name,
+                       frames_file_of(sequence.name, start)};
+        const auto add = [&run](const std::string& what, const std::string& number) {
+          run.folder += (run.folder.ends_with('/') ? "" : "-") + what + "-" + number;
+          run.title += ", " + what + " " + number;
+        };
+        if (start) add("start", std::to_string(*start));
+        add("seed", std::to_string(seed));
+        if (method.repeats > 1) add("repeat", std::to_string(repeat));
+        plan.runs.push_back(std::move(run));
       }
-      plan.runs.push_back(std::move(run));
     }
   }
 }
 
 Json run_json(const PlannedRun& run) {
-  return {{"title", run.title},
-          {"sequence", run.sequence},
-          {"method", run.method},
-          {"folder", run.folder},
-          {"arguments", run.arguments}};
+  return {{"title", run.title},   {"sequence", run.sequence}, {"method", run.method},
+          {"folder", run.folder}, {"frames", run.frames},     {"arguments", run.arguments}};
 }
 
 Plan plan_from(const Json& json) {
@@ -66,7 +53,8 @@ Plan plan_from(const Json& json) {
   for (const Json& r : json.at("references"))
     plan.references.push_back({r.at("name"), r.at("min_tracked"), r.at("trajectories")});
   for (const Json& r : json.at("runs"))
-    plan.runs.push_back({r.at("sequence"), r.at("method"), r.at("folder"), r.at("arguments"), r.at("title")});
+    plan.runs.push_back({r.at("sequence"), r.at("method"), r.at("folder"), r.at("arguments"), r.at("title"),
+                         r.value("frames", frames_file_of(r.at("sequence")))});
   return plan;
 }
 
@@ -76,8 +64,34 @@ std::string truth_file_of(const std::string& sequence) {
   return "sequences/" + folder_name(sequence) + "/groundtruth.txt";
 }
 
-std::string frames_file_of(const std::string& sequence) {
-  return "sequences/" + folder_name(sequence) + "/frames.txt";
+std::string frames_file_of(const std::string& sequence, std::optional<std::int64_t> start) {
+  return "sequences/" + folder_name(sequence) + "/frames" + (start ? "-from-" + std::to_string(*start) : "") +
+         ".txt";
+}
+
+std::vector<std::string> run_arguments(const Suite& suite, const SuiteSequence& sequence,
+                                       const SuiteMethod& method, std::uint64_t seed,
+                                       std::optional<std::int64_t> start) {
+  std::vector<std::string> arguments{"run",         sequence.dataset, "--preset",
+                                     method.preset, "--seed",         std::to_string(seed)};
+  const auto add = [&arguments](const std::string& option, const std::string& value) {
+    arguments.push_back(option);
+    arguments.push_back(value);
+  };
+  if (const std::string normals = normals_for(method, sequence); !normals.empty()) add("--normals", normals);
+  for (const auto* options : {&sequence.options, &method.options})
+    for (const SuiteOption& option : *options)
+      if (std::string argument = argument_of(option); !argument.empty())
+        arguments.push_back(std::move(argument));
+  if (start) add("--start", std::to_string(*start));
+  for (const std::string& text : method.set) add("--set", text);
+  if (!suite.report) arguments.emplace_back("--no-report");
+  return arguments;
+}
+
+std::vector<std::optional<std::int64_t>> starts_of(const SuiteSequence& sequence) {
+  if (sequence.starts.empty()) return {std::nullopt};
+  return {sequence.starts.begin(), sequence.starts.end()};
 }
 
 std::string normals_for(const SuiteMethod& method, const SuiteSequence& sequence) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct PlannedRun {
 
   // For people: "office, structure, seed 1".
   std::string title;
+  std::string frames;  // file of the stamps that it could have tracked, below the batch's folder
 };
 
 struct PlannedReference {
@@ -43,8 +45,18 @@ struct Plan {
 
 // Files of a batch's folder.
 inline constexpr const char* kPlanFile = "batch.json";
-[[nodiscard]] std::string truth_file_of(const std::string& sequence);   // below the batch's folder
-[[nodiscard]] std::string frames_file_of(const std::string& sequence);  // stamps, one a row
+[[nodiscard]] std::string truth_file_of(const std::string& sequence);  // below the batch's folder
+// Stamps, one a row, of a run from the sequence's first frame; `start`: of an ensemble.
+[[nodiscard]] std::string frames_file_of(const std::string& sequence,
+                                         std::optional<std::int64_t> start = std::nullopt);
+
+// What `sslam` is called with, but for the folder of the results.
+[[nodiscard]] std::vector<std::string> run_arguments(const Suite& suite, const SuiteSequence& sequence,
+                                                     const SuiteMethod& method, std::uint64_t seed,
+                                                     std::optional<std::int64_t> start);
+
+// The first frames of a sequence's runs; nothing in the place of the one that its options name.
+[[nodiscard]] std::vector<std::optional<std::int64_t>> starts_of(const SuiteSequence& sequence);
 
 // As --normals takes it, for this sequence.
 [[nodiscard]] std::string normals_for(const SuiteMethod& method, const SuiteSequence& sequence);

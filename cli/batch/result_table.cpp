@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sslam/io/evaluation/statistics.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -21,9 +22,17 @@ std::optional<double> finite_median(std::vector<double> values) {
   return io::quantile(values, 0.5);
 }
 
+// Nothing where there are no finite values.
+std::optional<double> largest(const std::vector<double>& values) {
+  std::optional<double> found;
+  for (const double value : values)
+    if (std::isfinite(value)) found = std::max(found.value_or(value), value);
+  return found;
+}
+
 TableCell make_cell(const std::vector<Estimate>& estimates, bool common) {
   TableCell cell;
-  std::vector<double> errors, shares;
+  std::vector<double> errors, shares, rotations, rates;
   cell.runs = estimates.size();
   for (const Estimate& estimate : estimates) {
     if (!estimate.done) continue;
@@ -32,11 +41,21 @@ TableCell make_cell(const std::vector<Estimate>& estimates, bool common) {
     cell.broken += estimate.broken ? 1 : 0;
     shares.push_back(estimate.share);
     const std::optional<double>& ate = common ? estimate.common_ate : estimate.ate;
-    if (estimate.failed) errors.push_back(kInfinity);
-    if (!estimate.failed && ate) errors.push_back(*ate);
+    if (estimate.failed) {
+      errors.push_back(kInfinity);
+      continue;
+    }
+    if (ate) errors.push_back(*ate);
+    if (estimate.rotation) rotations.push_back(*estimate.rotation);
+    if (estimate.frame_rate) rates.push_back(*estimate.frame_rate);
   }
   cell.ate = finite_median(errors);
-  if (!common) cell.share = finite_median(shares);
+  cell.worst = largest(errors);
+  cell.rotation = finite_median(rotations);
+  cell.frame_rate = finite_median(rates);
+  if (common || shares.empty()) return cell;
+  cell.share = finite_median(shares);
+  cell.least_share = *std::min_element(shares.begin(), shares.end());
   return cell;
 }
 
@@ -53,13 +72,18 @@ ResultTable make_table(const Results& results, bool common) {
   for (const ResultColumn& column : results.columns) table.columns.push_back(column.name);
   for (const ResultSequence& sequence : results.sequences) {
     table.row_names.push_back(sequence.name);
-    const std::string total = std::to_string(sequence.frames.size());
-    table.row_notes.push_back(common ? std::to_string(sequence.common) + " of " + total + " frames"
+    std::size_t total = 0, shared = 0;
+    for (const ResultFrames& start : sequence.starts) {
+      total += start.stamps.size();
+      shared += start.common;
+    }
+    table.row_notes.push_back(common ? std::to_string(shared) + " of " + std::to_string(total) + " frames"
                                      : (sequence.truth.empty() ? "no ground truth" : ""));
     std::vector<TableCell> row;
     for (const ResultColumn& column : results.columns) {
       const auto found = column.by_sequence.find(sequence.name);
       row.push_back(found == column.by_sequence.end() ? TableCell{} : make_cell(found->second, common));
+      row.back().ensemble = sequence.starts.size() > 1;
     }
     mark_best(row);
     table.rows.push_back(std::move(row));
@@ -67,9 +91,9 @@ ResultTable make_table(const Results& results, bool common) {
   return table;
 }
 
-std::string percent(double share) {
+std::string percent(double share, const char* unit = " %") {
   char text[32];
-  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  std::snprintf(text, sizeof text, "%.0f%s", 100 * share, unit);
   return text;
 }
 
@@ -81,6 +105,7 @@ void add_notes(const Results& results, ResultPage& page) {
       if (found == column.by_sequence.end()) continue;
       for (const Estimate& estimate : found->second) {
         page.missing += estimate.done ? 0 : 1;
+        if (!estimate.report.empty()) page.reports.push_back({estimate.title, estimate.report});
         if (estimate.failed)
           notes.push_back((estimate.broken ? "Failed unexpectedly: " : "Lost: ") + estimate.title + ": " +
                           estimate.reason);
@@ -101,10 +126,15 @@ std::string metres_text(double metres) {
 
 std::string cell_text(const TableCell& cell, const std::string& cross) {
   if (cell.done == 0) return "-";
-  const std::string share = cell.share ? " (" + percent(*cell.share) + ")" : "";
+  std::string share;
+  if (cell.share && cell.ensemble)
+    share = " (" + percent(*cell.least_share, "") + " / " + percent(*cell.share) + ")";
+  if (cell.share && !cell.ensemble) share = " (" + percent(*cell.share) + ")";
   if (cell.failed == cell.done && cell.broken == cell.done) return "failed";
   if (!cell.ate) return (cell.failed > 0 ? cross : "-") + share;
-  std::string text = metres_text(*cell.ate) + share;
+  std::string text = metres_text(*cell.ate);
+  if (cell.ensemble) text += " / " + metres_text(*cell.worst);
+  text += share;
   if (cell.failed > 0)
     text += ", " + std::to_string(cell.failed) + "/" + std::to_string(cell.done) + " " + cross;
   if (cell.done < cell.runs)
@@ -112,20 +142,48 @@ std::string cell_text(const TableCell& cell, const std::string& cross) {
   return text;
 }
 
+std::string rate_text(const TableCell& cell, const std::string&) {
+  char text[64];
+  std::string all;
+  if (cell.rotation) {
+    std::snprintf(text, sizeof text, "%.2f deg", *cell.rotation);
+    io::add_to_list(all, text);
+  }
+  if (cell.frame_rate) {
+    std::snprintf(text, sizeof text, "%.1f / s", *cell.frame_rate);
+    io::add_to_list(all, text);
+  }
+  return all.empty() ? "-" : all;
+}
+
 ResultPage make_page(const Results& results) {
   ResultPage page;
   page.title = results.name;
-  page.tables = {make_table(results, false), make_table(results, true)};
+  page.tables = {make_table(results, false), make_table(results, true), make_table(results, false)};
   page.tables[0].file = "table";
   page.tables[0].caption =
       "Translation RMSE (m) after Sim(3) alignment, median over the runs; in brackets the share of frames "
       "with a "
       "pose. Bold: the best of a sequence. \u00d7: lost, with less than " +
       percent(results.min_tracked) + " of the frames tracked.";
+  const bool ensemble = std::any_of(results.sequences.begin(), results.sequences.end(),
+                                    [](const ResultSequence& s) { return s.starts.size() > 1; });
+  if (ensemble)
+    page.tables[0].caption +=
+        " Of sequences that are run from several first frames: median / worst error, and least / median "
+        "share.";
   page.tables[1].file = "common_frames";
   page.tables[1].caption =
       "The same over the frames that have a pose in every run that was not lost, so that no method gains by "
       "leaving out hard frames.";
+  ResultTable& rates = page.tables[2];
+  rates.caption =
+      "Rotation error (RMSE, degrees) after the same alignment, and frames a second; medians over the runs "
+      "that were "
+      "not lost.";
+  rates.text = rate_text;
+  for (std::vector<TableCell>& row : rates.rows)
+    for (TableCell& cell : row) cell.best = false;
   add_notes(results, page);
   return page;
 }

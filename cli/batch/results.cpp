@@ -6,6 +6,8 @@
 #include <cstdio>
 
 #include "cli/batch/run_mark.hpp"
+#include "cli/results/json_file.hpp"
+#include "sslam/core/types.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
@@ -34,6 +36,16 @@ void take_trajectory(const fs::path& file, Estimate& estimate) {
   }
 }
 
+constexpr const char* kReportFile = "report.html";
+
+std::optional<double> frame_rate_of(const fs::path& run_folder) {
+  try {
+    return read_json_object(run_folder / "metrics.json").at("times").at("frames_per_second").get<double>();
+  } catch (const std::exception&) {
+    return std::nullopt;  // of another version
+  }
+}
+
 Estimate read_run(const fs::path& folder, const Plan& plan, const PlannedRun& run) {
   Estimate estimate;
   estimate.title = run.title;
@@ -46,7 +58,14 @@ Estimate read_run(const fs::path& folder, const Plan& plan, const PlannedRun& ru
     estimate.failed = mark->end != RunEnd::kTracked;
     estimate.broken = mark->end == RunEnd::kBroken;
     estimate.reason = mark->reason;
-    if (!estimate.failed) take_trajectory(place / "trajectory.txt", estimate);
+    estimate.frames = run.frames;
+    estimate.report.clear();
+    std::error_code ignored;
+    if (fs::exists(place / kReportFile, ignored)) estimate.report = place / kReportFile;
+    if (!estimate.failed) {
+      take_trajectory(place / "trajectory.txt", estimate);
+      estimate.frame_rate = frame_rate_of(place);
+    }
     if (!estimate.broken) break;  // else another part may have the run in one piece
   }
   return estimate;
@@ -78,10 +97,11 @@ void add_references(const fs::path& folder, const Plan& plan, Results& results) 
 }
 
 // A trajectory against the truth, both as they are or cut to some frames.
-std::optional<double> ate_of(const io::Trajectory& truth, const io::Trajectory& estimate, std::string& why) {
+std::optional<io::Evaluation> evaluation_of(const io::Trajectory& truth, const io::Trajectory& estimate,
+                                            std::string& why) {
   if (truth.empty()) return std::nullopt;
   try {
-    return io::evaluate(truth, estimate, {}).position.rmse;
+    return io::evaluate(truth, estimate, {});
   } catch (const Error& error) {
     why = error.what();
     return std::nullopt;
@@ -90,9 +110,10 @@ std::optional<double> ate_of(const io::Trajectory& truth, const io::Trajectory& 
 
 void judge(const ResultSequence& sequence, double min_tracked, Estimate& estimate) {
   if (!estimate.done || estimate.failed) return;
-  const auto tracked = io::associate(sequence.frames, io::stamps_of(estimate.trajectory)).size();
+  const std::vector<double>& frames = sequence.frames_of(estimate).stamps;
+  const auto tracked = io::associate(frames, io::stamps_of(estimate.trajectory)).size();
   estimate.share =
-      static_cast<double>(tracked) / static_cast<double>(std::max<std::size_t>(1, sequence.frames.size()));
+      static_cast<double>(tracked) / static_cast<double>(std::max<std::size_t>(1, frames.size()));
   if (estimate.share < min_tracked) {
     char text[64];
     std::snprintf(text, sizeof text, "tracked %.1f %% of the frames, less than %.1f %%", 100 * estimate.share,
@@ -101,7 +122,10 @@ void judge(const ResultSequence& sequence, double min_tracked, Estimate& estimat
     estimate.reason = text;
   }
   std::string why;
-  estimate.ate = ate_of(sequence.truth, estimate.trajectory, why);
+  if (const auto found = evaluation_of(sequence.truth, estimate.trajectory, why)) {
+    estimate.ate = found->position.rmse;
+    estimate.rotation = degrees(found->rotation.rmse);
+  }
   if (!why.empty() && !estimate.failed) {
     estimate.failed = true;
     estimate.reason = why;
@@ -116,44 +140,57 @@ std::vector<std::size_t> poses_of_frames(const std::vector<double>& frames,
   return pose;
 }
 
-// Calls visit(estimate) for those of the sequence that count.
+// Calls visit(estimate) for those from this start of the sequence that count.
 template <class Visit>
-void for_good(Results& results, const ResultSequence& sequence, Visit visit) {
+void for_good(Results& results, const ResultSequence& sequence, const ResultFrames& start, Visit visit) {
   for (ResultColumn& column : results.columns)
     if (const auto found = column.by_sequence.find(sequence.name); found != column.by_sequence.end())
       for (Estimate& estimate : found->second)
-        if (estimate.done && !estimate.failed) visit(estimate);
+        if (estimate.done && !estimate.failed && &sequence.frames_of(estimate) == &start) visit(estimate);
 }
 
-void evaluate_common(Results& results, ResultSequence& sequence) {
-  std::vector<bool> common(sequence.frames.size(), true);
+void evaluate_common(Results& results, const ResultSequence& sequence, ResultFrames& start) {
+  std::vector<bool> common(start.stamps.size(), true);
   std::size_t estimates = 0;
-  for_good(results, sequence, [&](const Estimate& estimate) {
+  for_good(results, sequence, start, [&](const Estimate& estimate) {
     ++estimates;
-    const auto pose = poses_of_frames(sequence.frames, estimate.trajectory);
+    const auto pose = poses_of_frames(start.stamps, estimate.trajectory);
     for (std::size_t f = 0; f < pose.size(); ++f)
       if (pose[f] == estimate.trajectory.size()) common[f] = false;
   });
-  sequence.common =
+  start.common =
       estimates == 0 ? 0 : static_cast<std::size_t>(std::count(common.begin(), common.end(), true));
-  for_good(results, sequence, [&](Estimate& estimate) {
-    const auto pose = poses_of_frames(sequence.frames, estimate.trajectory);
+  for_good(results, sequence, start, [&](Estimate& estimate) {
+    const auto pose = poses_of_frames(start.stamps, estimate.trajectory);
     io::Trajectory kept;
     for (std::size_t f = 0; f < pose.size(); ++f)
       if (common[f]) kept.push_back(estimate.trajectory[pose[f]]);
     std::string ignored;  // too few frames in common: no figure
-    if (!kept.empty()) estimate.common_ate = ate_of(sequence.truth, kept, ignored);
+    if (kept.empty()) return;
+    if (const auto found = evaluation_of(sequence.truth, kept, ignored))
+      estimate.common_ate = found->position.rmse;
   });
 }
 
 ResultSequence read_sequence(const fs::path& folder, const Plan& plan, const std::string& name) {
   const fs::path part = folder / plan.parts.front();
-  ResultSequence sequence{name, {}, read_stamps(part / frames_file_of(name))};
+  ResultSequence sequence{name, {}, {}};
+  for (const PlannedRun& run : plan.runs) {
+    const auto same = [&](const ResultFrames& start) { return start.file == run.frames; };
+    if (run.sequence == name && std::none_of(sequence.starts.begin(), sequence.starts.end(), same))
+      sequence.starts.push_back({run.frames, read_stamps(part / run.frames)});
+  }
   io::Warnings ignored;
   std::error_code none;
   const fs::path truth = part / truth_file_of(name);
   if (fs::exists(truth, none)) sequence.truth = io::read_trajectory(truth, ignored);
   return sequence;
+}
+
+// Names alone: either may be a link.
+fs::path relative_to(const fs::path& folder, const fs::path& file) {
+  return fs::absolute(file).lexically_normal().lexically_relative(
+      fs::absolute(folder / "").lexically_normal());
 }
 
 }  // namespace
@@ -175,8 +212,11 @@ Results read_results(const fs::path& folder, const std::vector<fs::path>& earlie
   for (ResultSequence& sequence : results.sequences) {
     for (ResultColumn& column : results.columns)
       if (const auto found = column.by_sequence.find(sequence.name); found != column.by_sequence.end())
-        for (Estimate& estimate : found->second) judge(sequence, column.min_tracked, estimate);
-    evaluate_common(results, sequence);
+        for (Estimate& estimate : found->second) {
+          judge(sequence, column.min_tracked, estimate);
+          if (!estimate.report.empty()) estimate.report = relative_to(folder, estimate.report);
+        }
+    for (ResultFrames& start : sequence.starts) evaluate_common(results, sequence, start);
   }
   return results;
 }

@@ -25,6 +25,10 @@ struct Estimate {
   double seconds = 0;                     // wall clock; 0: not known
   double share = 0;                       // of the frames that have a pose
   std::optional<double> ate, common_ate;  // RMSE in metres; nothing where there is no ground truth
+  std::optional<double> rotation;         // RMSE in degrees after the same alignment
+  std::optional<double> frame_rate;       // frames a second of a run of ours
+  std::filesystem::path report;           // below the folder of the results; empty: it has none
+  std::string frames;                     // file of the stamps that it could have tracked; empty: not known
   io::Trajectory trajectory;
 };
 
@@ -34,11 +38,24 @@ struct ResultColumn {
   std::map<std::string, std::vector<Estimate>> by_sequence{};
 };
 
+// The frames of a sequence from one of its starts.
+struct ResultFrames {
+  std::string file;
+  std::vector<double> stamps;
+  std::size_t common = 0;  // frames in which every estimate from there that has not failed has a pose
+};
+
 struct ResultSequence {
   std::string name;
-  io::Trajectory truth;        // empty: none
-  std::vector<double> frames;  // stamps
-  std::size_t common = 0;      // frames in which every estimate that has not failed has a pose
+  io::Trajectory truth;              // empty: none
+  std::vector<ResultFrames> starts;  // one, but for an ensemble
+
+  // What an estimate could have tracked: another system's begins with the sequence.
+  [[nodiscard]] const ResultFrames& frames_of(const Estimate& estimate) const {
+    for (const ResultFrames& start : starts)
+      if (start.file == estimate.frames) return start;
+    return starts.front();
+  }
 };
 
 struct Results {

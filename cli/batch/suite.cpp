@@ -2,10 +2,10 @@
 #include "cli/batch/suite.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "cli/batch/suite_methods.hpp"
+#include "cli/batch/suite_options.hpp"
 #include "cli/batch/suite_table.hpp"
 #include "cli/shell/toml_text.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
@@ -38,6 +38,7 @@ class SuiteReader {
     for (const std::string& earlier : top.texts("against")) suite_.against.push_back(folder_ / earlier);
     suite_.against_line = top.line_of("against");
     const MethodDefaults defaults = read_defaults(top, {});
+    starts_ = read_starts(top);
     read_each(top, "sequence", [&](SuiteTable& table) { read_sequence(table); });
     read_each(top, "method", [&](SuiteTable& table) { read_methods(table, defaults, suite_.methods); });
     read_each(top, "reference", [&](SuiteTable& table) { read_reference(table); });
@@ -67,23 +68,31 @@ class SuiteReader {
   }
 
   void read_sequence(SuiteTable& table) {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
     SuiteSequence sequence;
     sequence.line = table.line_of("path");
-    const std::string path = table.required_text("path", "a dataset, a glob of images or a video");
+    const std::string path = table.required_text("path", "a dataset, a glob of images, a video or a bag");
     sequence.dataset = resolve(path);
     sequence.name = table.text("name").value_or(fs::path(path).filename().string());
-    if (const auto camera = table.text("camera")) {
-      std::error_code ignored;
-      const bool built_in = io::find_known_camera(*camera) && !fs::exists(resolve(*camera), ignored);
-      sequence.camera = built_in ? *camera : resolve(*camera);
+    for (const std::string_view key : kSequenceOptions) {
+      const std::vector<SuiteOption> values = read_options(table, key);
+      if (values.size() > 1) table.fail(key, "expected one value");
+      for (const SuiteOption& option : values) sequence.options.push_back(resolve(option));
     }
     if (const auto truth = table.text("truth")) sequence.truth = resolve(*truth);
-    sequence.slice.start = table.whole_number("start", 0, 0);
-    sequence.slice.end = table.whole_number("end", -1, -1);
-    sequence.slice.stride = table.whole_number("stride", 1, 1);
-    sequence.frame_rate = table.number("fps", sequence.frame_rate, 1e-3, kInfinite);
+    sequence.starts = read_starts(table);
+    const bool has_start = table.find("start") != nullptr;
+    if (has_start && !sequence.starts.empty())
+      table.fail("starts", "there is a start as well; leave one out");
+    if (!has_start && sequence.starts.empty()) sequence.starts = starts_;
     suite_.sequences.push_back(std::move(sequence));
+  }
+
+  [[nodiscard]] static std::vector<std::int64_t> read_starts(SuiteTable& table) {
+    std::vector<std::int64_t> starts = table.whole_numbers("starts", 0);
+    std::sort(starts.begin(), starts.end());
+    if (const auto twice = std::adjacent_find(starts.begin(), starts.end()); twice != starts.end())
+      table.fail("starts", std::to_string(*twice) + " stands there twice");
+    return starts;
   }
 
   void read_reference(SuiteTable& table) {
@@ -111,6 +120,15 @@ class SuiteReader {
     return fs::absolute(folder_ / path).lexically_normal().string();
   }
 
+  // Files that options name are relative to the suite as well.
+  [[nodiscard]] SuiteOption resolve(SuiteOption option) const {
+    std::error_code ignored;
+    const bool built_in = option.key == "camera" && io::find_known_camera(option.value) &&
+                          !fs::exists(resolve(option.value), ignored);
+    if (option.key == "mask" || (option.key == "camera" && !built_in)) option.value = resolve(option.value);
+    return option;
+  }
+
   // The file behind "files:" or "onnx:" is relative to the suite as well.
   [[nodiscard]] std::string resolve_normals(const std::string& normals) const {
     for (const char* prefix : {"files:", "onnx:", "on-demand:files:", "on-demand:onnx:"})
@@ -135,6 +153,7 @@ class SuiteReader {
 
   std::string file_;
   fs::path folder_;
+  std::vector<std::int64_t> starts_;  // of sequences that name none
   Suite suite_;
 };
 

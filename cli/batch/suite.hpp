@@ -8,18 +8,23 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/datasets/dataset.hpp"
-
 namespace sslam::cli {
+
+// An option of `sslam run` by its long name.
+struct SuiteOption {
+  std::string key;
+  std::string value;  // of a flag "true" or "false"
+  bool flag = false;
+  int line = 0;  // in the suite file
+};
 
 struct SuiteSequence {
   std::string name;
-  std::string dataset;          // as `sslam run` takes it
-  std::string camera;           // as --camera takes it; empty: from the dataset
-  std::filesystem::path truth;  // empty: the dataset's own
-  io::Slice slice;
-  double frame_rate = 30;
-  int line = 0;  // of its path in the suite file
+  std::string dataset;  // as `sslam run` takes it
+  std::vector<SuiteOption> options;
+  std::vector<std::int64_t> starts;  // first frames of an ensemble; empty: one run, by the options
+  std::filesystem::path truth;       // empty: the dataset's own
+  int line = 0;                      // of its path in the suite file
 };
 
 struct SuiteMethod {
@@ -27,6 +32,7 @@ struct SuiteMethod {
   std::string preset = "structure";
   std::string normals;           // as --normals takes it; "{sequence}" in it stands for the sequence's name
   std::vector<std::string> set;  // stage.parameter=value
+  std::vector<SuiteOption> options;
   std::vector<std::uint64_t> seeds;
   int repeats = 1;
   int line = 0;  // of its heading in the suite file, and of what it may say

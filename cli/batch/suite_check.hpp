@@ -11,8 +11,8 @@ namespace sslam::cli {
 
 // What the evaluation needs to know of a sequence.
 struct SequenceFacts {
-  io::Trajectory truth;        // empty: none
-  std::vector<double> frames;  // stamps
+  io::Trajectory truth;                     // empty: none
+  std::vector<std::vector<double>> frames;  // stamps, for each of its starts
 };
 
 // One for each sequence of the suite. Throws Error that names file, line and what is wrong.

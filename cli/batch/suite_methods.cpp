@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/batch/suite_methods.hpp"
 
-#include <cstdio>
 #include <utility>
 
+#include "cli/batch/suite_options.hpp"
 #include "cli/batch/suite_table.hpp"
 #include "sslam/io/files/text.hpp"
 
@@ -12,24 +12,31 @@ namespace {
 
 // One way to fill in a part of a method; the label tells it from the others, and is empty where there is no
 // choice.
+template <class Value>
 struct Choice {
   std::string label;
-  std::string value;
+  Value value;
 };
 
-std::vector<Choice> choices_of(const std::vector<std::string>& values) {
-  std::vector<Choice> choices;
+std::vector<Choice<std::string>> choices_of(const std::vector<std::string>& values) {
+  std::vector<Choice<std::string>> choices;
   for (const std::string& value : values) choices.push_back({values.size() > 1 ? value : "", value});
   if (choices.empty()) choices.emplace_back();
   return choices;
 }
 
+// For the name of a method; empty: a flag that is off.
+std::string label_of(const SuiteOption& option) {
+  if (!option.flag) return option.key + "=" + option.value;
+  return option.value == "true" ? option.key : "";
+}
+
 // Every method with every choice; put(method, value) fills it in.
-template <class Put>
-void multiply(std::vector<SuiteMethod>& methods, const std::vector<Choice>& choices, Put put) {
+template <class Value, class Put>
+void multiply(std::vector<SuiteMethod>& methods, const std::vector<Choice<Value>>& choices, Put put) {
   std::vector<SuiteMethod> all;
   for (const SuiteMethod& method : methods) {
-    for (const Choice& choice : choices) {
+    for (const Choice<Value>& choice : choices) {
       SuiteMethod next = method;
       if (!choice.label.empty()) io::add_to_list(next.name, choice.label);
       put(next, choice.value);
@@ -37,12 +44,6 @@ void multiply(std::vector<SuiteMethod>& methods, const std::vector<Choice>& choi
     }
   }
   methods = std::move(all);
-}
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
 }
 
 // A table of parameters. `keyframes.min_gap = 5` without quotes is a table in a table to TOML: `stage` is the
@@ -57,10 +58,19 @@ void multiply_parameters(const toml::table& set, const std::string& file, const 
       continue;
     }
     std::vector<std::string> texts;
-    for (const double number : table.numbers(key.str())) texts.push_back(name + "=" + number_text(number));
+    for (const double number : table.numbers(key.str())) texts.push_back(name + "=" + plain_number(number));
     multiply(methods, choices_of(texts),
              [](SuiteMethod& method, const std::string& text) { method.set.push_back(text); });
   }
+}
+
+void multiply_options(const std::vector<SuiteOption>& values, std::vector<SuiteMethod>& methods) {
+  std::vector<Choice<SuiteOption>> choices;
+  for (const SuiteOption& option : values)
+    choices.push_back({values.size() > 1 ? label_of(option) : "", option});
+  if (choices.empty()) return;
+  multiply(methods, choices,
+           [](SuiteMethod& method, const SuiteOption& option) { method.options.push_back(option); });
 }
 
 }  // namespace
@@ -97,11 +107,14 @@ void read_methods(SuiteTable& table, const MethodDefaults& defaults, std::vector
     if (!set->is_table()) table.fail("set", "expected a table such as {keyframes.min_gap = 5}");
     multiply_parameters(*set->as_table(), table.file(), "", all);
   }
+  for (const std::string_view key : kMethodOptions) multiply_options(read_options(table, key), all);
   for (SuiteMethod& method : all) {
     if (name) continue;
     method.name = method.preset;
     if (!method.normals.empty()) method.name += ", " + method.normals;
     for (const std::string& text : method.set) method.name += ", " + text;
+    for (const SuiteOption& option : method.options)
+      if (const std::string label = label_of(option); !label.empty()) method.name += ", " + label;
   }
   methods.insert(methods.end(), all.begin(), all.end());
 }

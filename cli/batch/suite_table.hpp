@@ -21,6 +21,13 @@ namespace sslam::cli {
   return file + ": line " + std::to_string(line) + ": ";
 }
 
+// As on a command line.
+[[nodiscard]] inline std::string plain_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
 class SuiteTable {
  public:
   // `what` is how the user wrote it, such as "[[sequence]]". The table must outlive this.
@@ -64,6 +71,18 @@ class SuiteTable {
     for_each(key, [&](const toml::node& node) { all.push_back(number_of(key, node)); });
     return all;
   }
+
+  // A value as on a command line, or a list of them.
+  struct Word {
+    std::string text;
+    bool is_flag = false;  // true or false
+  };
+  [[nodiscard]] std::vector<Word> words(std::string_view key) {
+    std::vector<Word> all;
+    for_each(key, [&](const toml::node& node) { all.push_back(word_of(key, node)); });
+    return all;
+  }
+
   [[nodiscard]] std::vector<std::int64_t> whole_numbers(std::string_view key, std::int64_t least) {
     std::vector<std::int64_t> all;
     for_each(key, [&](const toml::node& node) { all.push_back(whole_of(key, node, least)); });
@@ -124,6 +143,13 @@ class SuiteTable {
     if (!value) fail(key, "expected text in quotes");
     if (value->empty()) fail(key, "is empty");
     return *value;
+  }
+  [[nodiscard]] Word word_of(std::string_view key, const toml::node& node) const {
+    if (node.is_boolean()) return {node.value_or(false) ? "true" : "false", true};
+    if (const auto whole = node.value_exact<std::int64_t>()) return {std::to_string(*whole)};
+    if (node.is_floating_point()) return {plain_number(number_of(key, node))};
+    if (!node.is_string()) fail(key, "expected text in quotes, a number, true or false");
+    return {text_of(key, node)};
   }
   [[nodiscard]] double number_of(std::string_view key, const toml::node& node) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;

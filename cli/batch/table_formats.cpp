@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/batch/table_formats.hpp"
 
+#include <cctype>
+#include <cstdio>
 #include <map>
+#include <string_view>
 
 namespace sslam::cli {
 namespace {
@@ -45,6 +48,20 @@ std::string latex(const std::string& text) {
   return safe;
 }
 
+// A relative path, with what links cannot hold written by its number.
+std::string url(const std::filesystem::path& path) {
+  std::string text;
+  for (const char c : path.generic_string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    char code[8];
+    std::snprintf(code, sizeof code, "%%%02X", byte);
+    const bool plain =
+        std::isalnum(byte) != 0 || std::string_view("/._-=~").find(c) != std::string_view::npos;
+    text += plain ? std::string(1, c) : code;
+  }
+  return text;
+}
+
 // A row's name with its note.
 std::string heading(const ResultTable& table, std::size_t row) {
   const std::string& note = table.row_notes[row];
@@ -62,7 +79,7 @@ std::string markdown_table(const ResultTable& table) {
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     text += "| " + markdown(heading(table, r)) + " |";
     for (const TableCell& cell : table.rows[r]) {
-      const std::string figures = markdown(cell_text(cell, kCross));
+      const std::string figures = markdown(table.text(cell, kCross));
       text += cell.best ? " **" + figures + "** |" : " " + figures + " |";
     }
     text += "\n";
@@ -79,7 +96,7 @@ std::string latex_table(const ResultTable& table) {
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     text += latex(heading(table, r));
     for (const TableCell& cell : table.rows[r]) {
-      const std::string figures = latex(cell_text(cell, kCross));
+      const std::string figures = latex(table.text(cell, kCross));
       text += " & " + (cell.best ? "\\textbf{" + figures + "}" : figures);
     }
     text += " \\\\\n";
@@ -94,7 +111,7 @@ std::string html_table(const ResultTable& table) {
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     text += "<tr><th>" + html(heading(table, r)) + "</th>";
     for (const TableCell& cell : table.rows[r]) {
-      const std::string figures = html(cell_text(cell, kCross));
+      const std::string figures = html(table.text(cell, kCross));
       const std::string kind = cell.done > 0 && cell.failed == cell.done ? " class=\"failed\"" : "";
       text += "<td" + kind + ">" + (cell.best ? "<b>" + figures + "</b>" : figures) + "</td>";
     }
@@ -115,6 +132,8 @@ std::string markdown_page(const ResultPage& page) {
   std::string text = "# " + markdown(page.title) + "\n\n";
   for (const ResultTable& table : page.tables) text += markdown_table(table);
   for (const std::string& note : page.notes) text += "- " + markdown(note) + "\n";
+  for (const ReportLink& report : page.reports)
+    text += "- Report: [" + markdown(report.title) + "](" + url(report.path) + ")\n";
   return text;
 }
 
@@ -133,9 +152,11 @@ std::string html_page(const ResultPage& page) {
       html(page.title) + "</title>\n<style>" + kHtmlStyle + "</style>\n</head>\n<body>\n<h1>" +
       html(page.title) + "</h1>\n";
   for (const ResultTable& table : page.tables) text += html_table(table);
-  if (!page.notes.empty()) text += "<ul>\n";
-  for (const std::string& note : page.notes) text += "<li>" + html(note) + "</li>\n";
-  if (!page.notes.empty()) text += "</ul>\n";
+  std::string items;
+  for (const std::string& note : page.notes) items += "<li>" + html(note) + "</li>\n";
+  for (const ReportLink& report : page.reports)
+    items += "<li>Report: <a href=\"" + url(report.path) + "\">" + html(report.title) + "</a></li>\n";
+  if (!items.empty()) text += "<ul>\n" + items + "</ul>\n";
   return text + "</body>\n</html>\n";
 }
 

@@ -114,6 +114,11 @@ class Tables(BatchCase):
             (row,) = [run for run in self.runs(self.out) if run["run"] == name]
             self.assertAlmostEqual(float(row["ate_rmse_m"]), wanted["ate_m"]["rmse"], places=5)
             self.assertAlmostEqual(float(row["share_tracked"]), wanted["share_tracked"], places=5)
+            self.assertAlmostEqual(float(row["rotation_rmse_deg"]), wanted["rotation_deg"]["rmse"], places=5)
+        metrics = json.loads((self.out / "runs/room_a/structure-none/seed-1/metrics.json").read_text())
+        (row,) = [run for run in self.runs(self.out) if run["run"] == "room_a, structure, none, seed 1"]
+        self.assertAlmostEqual(float(row["frames_per_second"]), metrics["times"]["frames_per_second"], places=5)
+        self.assertRegex((self.out / "tables.md").read_text(), r"\| room\\_a \| \d+\.\d\d deg, \d+\.\d / s \|")
 
     def test_csv_has_medians_and_shares(self):
         with open(self.out / "table.csv", newline="") as file:
@@ -141,7 +146,7 @@ class Tables(BatchCase):
 
     def test_markdown(self):
         lines = [line for line in (self.out / "tables.md").read_text().splitlines() if line.startswith("|")]
-        self.assertEqual(len(lines), 2 * 4)
+        self.assertEqual(len(lines), 3 * 4)
         self.assertEqual({len(re.findall(r"(?<!\\)\|", line)) for line in lines}, {3 + 2})
         self.assertIn("room\\_a", lines[2])
         self.assertRegex(lines[2], r"\*\*0\.0000 \(67 %\)\*\*")
@@ -155,9 +160,9 @@ class Tables(BatchCase):
             self.assertGreaterEqual(depth, 0)
         self.assertEqual(depth, 0)
         rows = [line for line in text.splitlines() if line.endswith(r"\\")]
-        self.assertEqual(len(rows), 2 * 3)
+        self.assertEqual(len(rows), 3 * 3)
         self.assertEqual({len(re.findall(r"(?<!\\)&", row)) for row in rows}, {3})
-        self.assertEqual(text.count(r"\begin{tabular}{lccc}"), 2)
+        self.assertEqual(text.count(r"\begin{tabular}{lccc}"), 3)
         self.assertIn(r"\textbf{0.0000 (67 \%)}", text)
 
     def test_html(self):
@@ -165,8 +170,35 @@ class Tables(BatchCase):
         check = TagCheck()
         check.feed(text)
         self.assertEqual(check.open, [])
-        self.assertEqual((check.count["table"], check.count["tr"], check.count["td"]), (2, 6, 12))
+        self.assertEqual((check.count["table"], check.count["tr"], check.count["td"]), (3, 9, 18))
         self.assertIn("<title>Small &amp; rooms</title>", text)
+
+    def test_an_ensemble_of_starts_shows_its_spread(self):
+        """Also: options of `sslam run` in a suite, and links to reports."""
+        (self.folder / "mask.pgm").write_bytes(b"P5 320 240 255\n" + bytes([255]) * 320 * 240)
+        suite = self.suite('report = true\nstarts = [0, 4]\n[[sequence]]\npath = "room"\nend = 16\nmask = "mask.pgm"\n'
+                           'scale = "known=1.5"\n[[method]]\nname = "quick"\nnormals = "none"\nno-final-pass = true\n'
+                           'calibration = "fixed"\n', "starts.toml")
+        out = self.folder / "starts"
+        done = self.batch(suite, "--out", out)
+        place = out / "runs/room/quick/start-4-seed-1"
+        settings = json.loads((place / "metrics.json").read_text())["settings"]
+        self.assertEqual((settings["start"], settings["final_pass"], settings["scale"]), (4, False, "known=1.5"))
+        first, second = self.runs(out)
+        self.assertEqual((first["run"], second["run"]), ("room, quick, start 0, seed 1", "room, quick, start 4, seed 1"))
+        poses = [line for line in (place / "trajectory.txt").read_text().splitlines() if line[0] != "#"]
+        self.assertAlmostEqual(float(second["share_tracked"]), len(poses) / 12, places=5)
+        with open(out / "table.csv", newline="") as file:
+            (row,) = csv.DictReader(file)
+        errors, shares = ([float(run[name]) for run in (first, second)] for name in ("ate_rmse_m", "share_tracked"))
+        self.assertAlmostEqual(float(row["quick: ATE RMSE (m)"]), sum(errors) / 2, places=5)
+        self.assertAlmostEqual(float(row["quick: worst ATE RMSE (m)"]), max(errors), places=5)
+        self.assertAlmostEqual(float(row["quick: least share tracked"]), min(shares), places=5)
+        self.assertRegex(done.stdout, r"\| room \| \*\*\d\.\d{4} / \d\.\d{4} \(\d+ / \d+ %\)\*\* \|")
+        self.assertIn(" of 28 frames)", (out / "tables.md").read_text())
+        for link in re.findall(r'href="([^"]+)"', (out / "tables.html").read_text()):
+            self.assertTrue((out / link).is_file(), link)
+        self.assertIn("](runs/room/quick/start-4-seed-1/report.html)", (out / "tables.md").read_text())
 
     def test_an_earlier_batch_stands_beside(self):
         again = self.batch(self.folder / "suite.toml", "--out", self.out, "--against", self.out)
@@ -263,7 +295,8 @@ class Shards(BatchCase):
         self.batch("merge", *shards, "--out", merged)
         self.batch(suite, "--out", whole)
         for name in ("table.csv", "common_frames.csv", "tables.md", "tables.tex", "tables.html"):
-            self.assertEqual((merged / name).read_text(), (whole / name).read_text())
+            same, wanted = ((folder / name).read_text().split("Rotation error")[0] for folder in (merged, whole))
+            self.assertEqual(same, wanted)
         beside = self.batch(suite, "--out", whole, "--against", merged)
         self.assertIn("structure, none (merged)", beside.stdout)
         self.assertIn("is one of the folders to merge", self.batch("merge", *shards, "--out", shards[0], code=1).stderr)

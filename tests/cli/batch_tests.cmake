@@ -54,6 +54,30 @@ sslam_suite_refuses("a flawed trajectory" "line 3: ..reference..: [^\n]*flawed.t
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {images = \"flawed.txt\"}\n")
 sslam_suite_refuses("a missing earlier batch" "line 1: against: [^\n]*none: no such folder" "against = \"none\"\n${sequence}")
 
+sslam_suite_refuses("a view wider than any" "line 3: fov in ..sequence..: --fov: [^\n]*150" "${sequence}fov = 200\n")
+sslam_suite_refuses("a word for a view" "line 3: fov in ..sequence..: [^\n]*fov" "${sequence}fov = \"wide\"\n")
+sslam_suite_refuses("two focal lengths" "line 2: ..sequence..: --focal excludes --fov" "${sequence}fov = 70\nfocal = 260\n")
+sslam_suite_refuses("a topic of images" "line 2: ..sequence..: [^\n]*images: is no bag, so it has no topics" "${sequence}topic = \"/image\"\n")
+sslam_suite_refuses("a missing mask" "line 2: ..sequence..: [^\n]*none.png" "${sequence}mask = \"none.png\"\n")
+sslam_suite_refuses("two masks" "line 3: mask in ..sequence..: expected one value" "${sequence}mask = [\"a.png\", \"b.png\"]\n")
+sslam_suite_refuses("a scale of no depth" "line 2: ..sequence..: --scale depth: " "${sequence}scale = \"depth\"\n")
+sslam_suite_refuses("a start and starts" "line 4: starts in ..sequence..: there is a start as well" "${sequence}start = 1\nstarts = [0]\n")
+sslam_suite_refuses("a start twice" "line 1: starts in the suite: 0 stands there twice" "starts = [0, 0]\n${sequence}")
+sslam_suite_refuses("a start behind the end" "line 2: ..sequence..: [^\n]*no frame from 7 up to 1" "${sequence}starts = [0, 7]\n")
+sslam_suite_refuses("an unknown calibration" "line 4: calibration in ..method..: --calibration: 'fix' is not one of"
+                    "${sequence}[[method]]\ncalibration = [\"fixed\", \"fix\"]\n")
+sslam_suite_refuses("a word for a flag" "line 4: live in ..method..: expected true or false" "${sequence}[[method]]\nlive = \"yes\"\n")
+sslam_suite_refuses("a flag for a number" "line 4: longest-side in ..method..: expected a value, not true or false"
+                    "${sequence}[[method]]\nlongest-side = true\n")
+sslam_suite_refuses("a preset that is not live" "line 3: ..method..: --live: not with --preset odometry"
+                    "${sequence}[[method]]\npreset = \"odometry\"\nlive = true\n")
+sslam_suite_refuses("an option with a typo" "line 4: 'longest_side' is not a key of ..method... did you mean 'longest-side'"
+                    "${sequence}[[method]]\nlongest_side = 320\n")
+
+file(WRITE ${folder}/starts.toml "starts = [0]\n${sequence}fov = 70\n[[method]]\nnormals = \"none\"\nlongest-side = [0, 320]\nno-final-pass = [false, true]\n")
+sslam_cli_test(NAME "batch lists starts and options" ARGS batch ${folder}/starts.toml --list ERR "no ground truth"
+               OUT "^runs/images/structure-none-longest-side=0/start-0-seed-1\nruns/images/structure-none-longest-side=0-no-final-pass/start-0-seed-1\n"
+               "=320-no-final-pass/start-0-seed-1\n$")
 file(WRITE ${folder}/fine.toml "${sequence}[[method]]\nnormals = [\"none\", \"onnx\"]\nset = {keyframes.min_gap = [2, 4]}\n")
 sslam_cli_test(NAME "batch lists its runs" ARGS batch ${folder}/fine.toml --list ERR "no ground truth"
                OUT "^runs/images/structure-none-keyframes.min_gap=2/seed-1\nruns/images/structure-none-keyframes.min_gap=4/seed-1\n"

@@ -72,6 +72,8 @@ def ros2(sslam):
     path = sslam.scratch / "recording"
     bags.write_ros2(path, sslam.room.messages(packed=True, depth=None))
     sslam.same_as_folder(path)
+    (metadata := path / "metadata.yaml").write_text(metadata.read_text().replace("  relative_file_paths:\n", "  relative_file_paths:\n  - gone_1.mcap\n"))
+    assert "lists gone_1.mcap, not there" in sslam.run(path, "part", "--end", 5)[1]
     sslam.run_program("export", sslam.scratch / "recording_out", "--format", "colmap")
     assert "recording_000000.png" in (sslam.scratch / "recording_out" / "colmap" / "images.txt").read_text()
     assert "has no topics" in sslam.run(sslam.room.folder, "none", "--topic", "/camera/image_raw", code=1)[1]
@@ -149,6 +151,13 @@ def refusals(sslam):
     text = said(sslam.scratch / "two.mcap")
     assert "2 topics with images" in text and "/right/image_raw/compressed" in text, text
     assert "names no topic" in said(sslam.scratch / "two.mcap", "--topic", "/nowhere")
+    # Other commands take the same topics.
+    named = (sslam.scratch / "two.mcap", "--topic", "/right/image_raw/compressed", "--quiet")
+    done = sslam.run_program("normals", *named, "--fov", 60, "--out", sslam.scratch / "normals")
+    assert "images           4 of 4" in done.stdout, done.stdout
+    assert "0 different views" in sslam.run_program("calibrate", *named, code=1).stderr
+    sslam.scratch.joinpath("suite.toml").write_text('[[sequence]]\npath = "two.mcap"\nfov = 60\ntopic = "/right/image_raw/compressed"\n')
+    sslam.run_program("batch", sslam.scratch / "suite.toml", "--list")
     bags.write_ros2(sslam.scratch / "sqlite", two, "SQLITE3")
     (part,) = (sslam.scratch / "sqlite").glob("*.db3")
     bags.write_mcap(sslam.scratch / "sqlite" / "sqlite.mcap", two)
