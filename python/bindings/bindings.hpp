@@ -8,6 +8,7 @@
 namespace sslam::python {
 
 void bind_camera(nanobind::module_& module);
+void bind_wide_lens(nanobind::module_& module);
 void bind_system(nanobind::module_& module);
 void bind_map(nanobind::module_& module);
 void bind_kernels(nanobind::module_& module);

@@ -7,13 +7,16 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/images.hpp"
 #include "bindings/messages.hpp"
 #include "cli/input/first_image.hpp"
 #include "cli/input/frame_reader.hpp"
 #include "cli/input/open_images.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::python {
 namespace {
@@ -22,43 +25,38 @@ namespace {
 struct Recording {
   io::Dataset dataset;
   cli::CameraChoice camera;
+  std::optional<WideView> view;  // of a wide lens: its images are undistorted to it
   std::vector<std::string> messages;
 };
 
-std::unique_ptr<Recording> open(const std::filesystem::path& path, const std::string& camera, double focal,
-                                double fov, double frame_rate, std::int64_t start, std::int64_t end,
-                                std::int64_t stride) {
+// Depth belongs to the images as they come.
+void look_through(Recording& recording) {
+  recording.view.emplace(*recording.camera.wide, recording.camera.view_fov);
+  bool any = false;
+  for (io::FrameEntry& frame : recording.dataset.frames) {
+    any = any || !frame.depth.empty();
+    frame.depth.clear();
+  }
+  if (any)
+    recording.dataset.warnings.push_back(recording.dataset.root.string() +
+                                         ": its depth images are those of a wide lens, and are left out");
+}
+
+std::unique_ptr<Recording> open(const std::filesystem::path& path, const io::BagTopics& topics,
+                                const cli::CameraWish& wish, double frame_rate, const io::Slice& slice) {
   const nb::gil_scoped_release free;
   auto recording = std::make_unique<Recording>();
   (void)take_messages();
   io::Dataset& dataset = recording->dataset;
-  dataset = cli::open_frames(path, {frame_rate}, {}, end);
-  io::apply_slice(dataset, {start, end, stride});
-  recording->camera = cli::camera_for_images({camera, focal, fov}, dataset);
+  dataset = cli::open_frames(path, {frame_rate}, topics, slice.end);
+  io::apply_slice(dataset, slice);
+  recording->camera = cli::camera_for_images(wish, dataset);
+  if (recording->camera.wide) look_through(*recording);
   recording->messages = dataset.warnings;
   for (const std::vector<std::string>& more :
        {recording->camera.notes, recording->camera.warnings, take_messages()})
     recording->messages.insert(recording->messages.end(), more.begin(), more.end());
   return recording;
-}
-
-nb::object array_of(cv::Mat image) {
-  if (image.empty()) return nb::none();
-  auto kept = std::make_unique<cv::Mat>(image.isContinuous() ? std::move(image) : image.clone());
-  const auto rows = static_cast<std::size_t>(kept->rows), columns = static_cast<std::size_t>(kept->cols);
-  const auto channels = static_cast<std::size_t>(kept->channels());
-  const int depth = kept->depth();
-  void* const data = kept->data;
-  const nb::capsule owner(kept.release(), [](void* all) noexcept { delete static_cast<cv::Mat*>(all); });
-  std::vector<std::size_t> shape{rows, columns};
-  if (channels > 1) shape.push_back(channels);
-  const auto cast = [&]<class T>(T) {
-    return nb::cast(Made<T>(static_cast<T*>(data), shape.size(), shape.data(), owner));
-  };
-  if (depth == CV_8U) return cast(std::uint8_t{});
-  if (depth == CV_16U) return cast(std::uint16_t{});
-  if (depth == CV_32F) return cast(float{});
-  throw Error("image: has pixels of a type that numpy gets none of");
 }
 
 // The frames one after the other. Threads take turns.
@@ -68,7 +66,8 @@ class Frames {
       : recording_(recording),
         reader_(recording.dataset, {recording.camera.camera.width, recording.camera.camera.height}) {}
 
-  // (image or None, why there is none, stamp, depth or None, name, index, pose or None); None at the end.
+  // (image or None, why there is none, stamp, depth or None, name, index, pose or None, mask or None); None
+  // at the end.
   nb::object next(bool with_depth) {
     const io::FrameEntry* entry = nullptr;
     cv::Mat image, depth;
@@ -80,13 +79,15 @@ class Frames {
         entry = &recording_.dataset.frames[at_++];
         image = reader_.read(*entry, why);
         name = reader_.stem(*entry);
+        if (recording_.view && !image.empty()) image = recording_.view->of(image);
         if (with_depth && !image.empty() && !entry->depth.empty()) depth = reader_.read_depth(*entry, why);
       }
     }
     if (entry == nullptr) return nb::none();
     const SE3<double>* const truth = recording_.dataset.world_from_cam(*entry);
-    return nb::make_tuple(array_of(image), why, entry->stamp, array_of(depth), name, entry->index,
-                          truth != nullptr ? nb::cast(matrix_array<4, 4>(matrix_of(*truth))) : nb::none());
+    return nb::make_tuple(image_array(image), why, entry->stamp, image_array(depth), name, entry->index,
+                          truth != nullptr ? nb::cast(matrix_array<4, 4>(matrix_of(*truth))) : nb::none(),
+                          recording_.view ? image_array(recording_.view->seen().clone()) : nb::none());
   }
 
  private:
@@ -119,7 +120,17 @@ void bind_datasets(nb::module_& module) {
              return make_array(std::move(stamps), {count});
            })
       .def("ground_truth", [](const Recording& r) { return trajectory_arrays(r.dataset.ground_truth); });
-  module.def("open_recording", &open);
+  module.def(
+      "open_recording",
+      [](const std::filesystem::path& path, const std::string& topic, const std::string& depth_topic,
+         const std::string& camera, double focal, double fov, double undistort_fov, double frame_rate,
+         std::int64_t start, std::int64_t end, std::int64_t stride) {
+        return open(path, {topic, depth_topic}, {camera, focal, fov, undistort_fov}, frame_rate,
+                    {start, end, stride});
+      },
+      nb::arg("path"), nb::arg("topic"), nb::arg("depth_topic"), nb::arg("camera"), nb::arg("focal"),
+      nb::arg("fov"), nb::arg("undistort_fov"), nb::arg("frame_rate"), nb::arg("start"), nb::arg("end"),
+      nb::arg("stride"));
   nb::class_<Frames>(module, "Frames")
       .def(nb::init<const Recording&>(), nb::keep_alive<1, 2>())
       .def("next", &Frames::next, nb::arg("with_depth"),

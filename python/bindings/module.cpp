@@ -55,6 +55,7 @@ NB_MODULE(_sslam, module) {
              "the iterations ran out; the best state so far is returned")
       .value("NOT_FINITE", Status::kNotFinite, "an input was NaN or infinite");
   python::bind_camera(module);
+  python::bind_wide_lens(module);
   python::bind_map(module);
   python::bind_system(module);
   python::bind_kernels(module);

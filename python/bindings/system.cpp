@@ -9,6 +9,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/images.hpp"
 #include "bindings/map_arrays.hpp"
 #include "bindings/tracking.hpp"
 #include "cli/input/normal_choice.hpp"
@@ -17,33 +18,9 @@
 namespace sslam::python {
 namespace {
 
-using Array = nb::ndarray<nb::ro, nb::device::cpu>;
-
-int type_of(const nb::dlpack::dtype& type, int channels) {
-  if (type == nb::dtype<std::uint8_t>()) return CV_8UC(channels);
-  if (type == nb::dtype<std::uint16_t>()) return CV_16UC(channels);
-  if (type == nb::dtype<float>()) return CV_32FC(channels);
-  throw nb::type_error("array: expected uint8, uint16 or float32");
-}
-
-// The caller's pixels, (H, W) or (H, W, C): rows may have gaps between them, pixels and channels may not.
-cv::Mat mat_of(const std::optional<Array>& array) {
-  if (!array) return {};
-  const int channels = array->ndim() == 3 ? static_cast<int>(array->shape(2)) : 1;
-  const bool close = (array->ndim() == 2 || (array->ndim() == 3 && array->stride(2) == 1)) &&
-                     array->stride(1) == channels &&
-                     array->stride(0) >= static_cast<std::int64_t>(array->shape(1)) * channels;
-  if (!close) throw nb::value_error("array: expected rows of pixels without gaps between them");
-  // OpenCV takes no pointer to const; nothing writes through this one.
-  auto* const pixels = const_cast<void*>(static_cast<const void*>(array->data()));
-  return cv::Mat(static_cast<int>(array->shape(0)), static_cast<int>(array->shape(1)),
-                 type_of(array->dtype(), channels), pixels,
-                 static_cast<std::size_t>(array->stride(0)) * array->itemsize());
-}
-
-Result track(Tracking& tracking, const Array& image, double stamp, const std::optional<Array>& depth,
-             const std::optional<Array>& mask, const std::optional<Array>& normals, const std::string& name,
-             bool rgb) {
+Result track(Tracking& tracking, const PixelArray& image, double stamp,
+             const std::optional<PixelArray>& depth, const std::optional<PixelArray>& mask,
+             const std::optional<PixelArray>& normals, const std::string& name, bool rgb) {
   Given given;
   given.image = mat_of(image);
   given.depth = mat_of(depth);

@@ -90,6 +90,43 @@ class Datasets(unittest.TestCase):
             self.assertTrue(any("ASSUMING a field of view" in t for t in text), text)
             self.assertTrue(any(second.name in t and "skipped" in t for t in text), text)
 
+    def test_a_wide_lens_is_looked_through(self):
+        text = "".join(f"Camera.{key}: {value}\n" for key, value in (
+            ("type", "KannalaBrandt8"), ("fx", 100), ("fy", 100), ("cx", 159.5), ("cy", 119.5), ("width", 320), ("height", 240),
+            ("k1", 0), ("k2", 0), ("k3", 0), ("k4", 0)))
+        with tempfile.TemporaryDirectory() as folder:
+            camera = pathlib.Path(folder) / "wide.yaml"
+            camera.write_text(text)
+            lens = sslam.WideLens(camera, 90)
+            self.assertAlmostEqual(lens.camera.fx, 160)
+            plain = frames()[0].image
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                dataset = sslam.open_dataset(ROOM, camera=camera, undistort_fov=90, end=2)
+            self.assertAlmostEqual(dataset.camera.fx, 160)
+            first = next(iter(dataset))
+            np.testing.assert_array_equal(first.image, lens.image(plain))
+            self.assertGreater(np.abs(first.image.astype(int) - plain).mean(), 5)
+            self.assertEqual((first.depth, first.mask, dataset.has_depth), (None, None, False))
+            self.assertEqual(int(lens.mask(np.zeros((240, 320), np.uint8)).max()), 0)
+            system = sslam.System(camera, normals="none")
+            self.assertAlmostEqual(system.camera.fx, sslam.WideLens(camera).camera.fx)
+            self.assertGreater(system.track(plain, 0.0).points, 20)
+            with self.assertRaisesRegex(ValueError, "^depth: "):
+                system.track(plain, 1.0, depth=np.ones((240, 320), np.float32))
+            with self.assertRaisesRegex(ValueError, "^image: has 160x120 pixels; the lens's images have 320x240"):
+                lens.image(plain[::2, ::2])
+            with self.assertRaisesRegex(sslam.Error, "not too wide"):
+                sslam.WideLens(ROOM / "camera.yaml")
+            with self.assertRaisesRegex(ValueError, "^undistort_fov: "):
+                sslam.open_dataset(ROOM, undistort_fov=170)
+
+    def test_topics_are_those_of_bags(self):
+        with self.assertRaisesRegex(sslam.Error, "is no bag, so it has no topics"):
+            sslam.open_dataset(ROOM, topic="/camera/image_raw")
+        with self.assertRaisesRegex(TypeError, "^depth_topic: "):
+            sslam.open_dataset(ROOM, depth_topic=3)
+
     def test_what_is_no_dataset_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             with self.assertRaisesRegex(sslam.Error, "the folder is empty"):

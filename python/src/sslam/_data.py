@@ -12,6 +12,7 @@ from . import _check, _sslam
 from ._errors import Error, SslamWarning
 from ._sslam import Camera, Evaluation
 from ._types import Floats, Frame, Trajectory
+from ._wide_lens import view_angle
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -37,11 +38,11 @@ class Dataset:
             found: Optional[Tuple[Any, ...]] = frames.next(True)
             if found is None:
                 return
-            image, why, stamp, depth, name, index, pose = found
+            image, why, stamp, depth, name, index, pose, mask = found
             if why:
                 _tell([f"{why}; frame skipped" if image is None else why])
             if image is not None:
-                yield Frame(image, stamp, depth, name, index, pose)
+                yield Frame(image, stamp, depth, name, index, pose, mask)
 
     @property
     def camera(self) -> Camera:
@@ -85,19 +86,25 @@ class Dataset:
 def open_dataset(
     path: Path,
     *,
+    topic: Optional[str] = None,
+    depth_topic: Optional[str] = None,
     camera: Optional[Path] = None,
     focal: float = 0.0,
     fov: float = 0.0,
+    undistort_fov: Optional[float] = None,
     frame_rate: float = 30.0,
     start: int = 0,
     end: Optional[int] = None,
     stride: int = 1,
 ) -> Dataset:
     """Opens whatever `sslam run` takes: a folder in a layout that it knows (docs/run.md), a folder or a glob of
-    images, a video, or a bag of ROS with one topic of images.
+    images, a video, or a bag of ROS.
 
+    topic, depth_topic: of a bag's images and of their depth; not needed where it has one alone.
     camera: a camera file or the name of a built-in calibration; else focal (pixels) or fov (degrees across); else the
         one that is found in the dataset, or guessed with a warning.
+    undistort_fov: of a lens that is too wide for a pinhole: degrees across of the view that its images are undistorted
+        to, 30 to 140; 110, or what it sees, by itself. The dataset's camera and images are those of the view.
     frame_rate: frames a second, for images whose names are no stamps.
     start, end, stride: part of the recording.
 
@@ -108,13 +115,19 @@ def open_dataset(
             raise ValueError(f"{name}: {value} is not a finite number from 0 on")
     if fov >= 180:
         raise ValueError(f"fov: {fov:g} degrees are out of range: below 180")
+    for name, text in (("topic", topic), ("depth_topic", depth_topic)):
+        if not isinstance(text, (str, type(None))):
+            raise TypeError(f"{name}: expected its name, not {type(text).__name__}")
     most = 2**62
     last = -1 if end is None else _check.whole("end", end, 1, most)
     recording = _sslam.open_recording(
         _check.path("path", path),
+        topic or "",
+        depth_topic or "",
         "" if camera is None else _check.path("camera", camera),
         float(focal),
         float(fov),
+        view_angle("undistort_fov", undistort_fov),
         _check.positive("frame_rate", frame_rate),
         _check.whole("start", start, 0, most),
         last,

@@ -31,6 +31,7 @@ from ._types import (
     TriangulatedLines,
 )
 from ._viewers import Open3dScene, to_open3d, to_rerun
+from ._wide_lens import WideLens
 
 __all__ = [
     "EVENTS",
@@ -64,6 +65,7 @@ __all__ = [
     "Trajectory",
     "Translation",
     "TriangulatedLines",
+    "WideLens",
     "__version__",
     "bundle_adjust",
     "evaluate",

@@ -14,6 +14,7 @@ from . import _check, _sslam
 from ._errors import SettingsError, SslamWarning
 from ._sslam import Camera, Result
 from ._types import Floats, Latest, Lines, Parameter, Planes, Preset, Trajectory
+from ._wide_lens import WideLens
 
 Path = Union[str, "os.PathLike[str]"]
 NormalsCallback = Callable[[NDArray[np.uint8]], Optional[NDArray[Any]]]
@@ -46,6 +47,13 @@ def as_camera(name: str, camera: Union[Camera, Path]) -> Camera:
     return Camera.from_file(_check.path(name, camera))
 
 
+def _wide_lens(camera: Union[Camera, WideLens, Path]) -> Optional[WideLens]:
+    """None: a pinhole sees what the camera sees."""
+    if isinstance(camera, (str, bytes, os.PathLike)) and _sslam.is_wide(_check.path("camera", camera)):
+        return WideLens(camera)
+    return camera if isinstance(camera, WideLens) else None
+
+
 def _parameter_values(given: Optional[Mapping[str, float]], words: Dict[str, float]) -> Dict[str, float]:
     for name in words:
         if "__" not in name:
@@ -60,7 +68,8 @@ def _parameter_values(given: Optional[Mapping[str, float]], words: Dict[str, flo
 class System:
     """Tracks a camera and builds a map.
 
-    camera: an sslam.Camera, or the path of a camera file.
+    camera: an sslam.Camera, an sslam.WideLens, or the path of a camera file. Images of a wide lens are undistorted to its
+        view; poses, map and normals that are given are those of the view.
     preset: one of sslam.presets().
     normals: where surface normals come from: "onnx" (the network that comes with sslam), "onnx:FILE" (another one),
         "depth" (registered depth images), "files:DIR", "none" (lines alone), or a function that is called with each
@@ -84,7 +93,7 @@ class System:
 
     def __init__(
         self,
-        camera: Union[Camera, Path],
+        camera: Union[Camera, WideLens, Path],
         preset: str = "structure",
         normals: Union[None, str, NormalsCallback] = None,
         *,
@@ -109,8 +118,9 @@ class System:
         self._rgb = colours == "rgb"
         self._callbacks: Dict[str, List[Callable[[Any], Any]]] = {event: [] for event in EVENTS}
         self._normals_of: Optional[NormalsCallback] = None
+        self._lens = _wide_lens(camera)
         self._tracking = _sslam.Tracking(
-            as_camera("camera", camera),
+            as_camera("camera", camera) if self._lens is None else self._lens.camera,
             preset,
             self._source_of(normals, preset),
             values,
@@ -178,6 +188,11 @@ class System:
             mask = _check.pixels("mask", mask, (np.uint8, np.bool_), (1,)).view(np.uint8)
             if mask.shape != pixels.shape[:2]:
                 raise ValueError(f"mask: has shape {mask.shape}; expected that of the image, {pixels.shape[:2]}")
+        if self._lens is not None:
+            if depth is not None:
+                raise ValueError("depth: is that of a wide lens's image, which is undistorted; leave it out")
+            image = pixels = self._lens.image(pixels)
+            mask = self._lens.mask(mask)
         if normals is None and self._normals_of is not None:
             normals = self._normals_of(image)
         if normals is not None:

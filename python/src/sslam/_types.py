@@ -93,6 +93,8 @@ class Frame:
     """position in the whole recording"""
     pose: Optional[Floats]
     """(4, 4), camera to world, true; None: not known"""
+    mask: Optional[NDArray[np.uint8]] = None
+    """(H, W), for System.track: 0 where a wide lens, whose image this was, sees nothing; None: it is all of use"""
 
 
 class ManhattanRotation(NamedTuple):
