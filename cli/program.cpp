@@ -30,6 +30,7 @@
 #include "cli/shell/help_formatter.hpp"
 #include "cli/shell/man_page.hpp"
 #include "cli/shell/messages.hpp"
+#include "cli/shell/usage_text.hpp"
 #include "sslam/core/closest_word.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/version.hpp"
@@ -112,10 +113,7 @@ int report_parse_result(const CLI::App& app, const CLI::ParseError& error) {
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   if (missing || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     if (const std::string unknown = unknown_word(app); !unknown.empty()) text = unknown;
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  print_error(text + " (see sslam --help)");
+  print_error(usage_text(text) + " (see sslam --help)");
   return static_cast<int>(ExitCode::kUsage);
 }
 

@@ -80,7 +80,8 @@ class SuiteReader {
     }
     if (const auto truth = table.text("truth")) sequence.truth = resolve(*truth);
     sequence.starts = read_starts(table);
-    const bool has_start = table.find("start") != nullptr;
+    const bool has_start = std::any_of(sequence.options.begin(), sequence.options.end(),
+                                       [](const SuiteOption& option) { return option.key == "start"; });
     if (has_start && !sequence.starts.empty())
       table.fail("starts", "there is a start as well; leave one out");
     if (!has_start && sequence.starts.empty()) sequence.starts = starts_;

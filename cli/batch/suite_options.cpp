@@ -2,9 +2,9 @@
 #include "cli/batch/suite_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "cli/batch/suite_table.hpp"
+#include "cli/shell/usage_text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -48,9 +48,7 @@ RunSettings parse_run(const std::vector<std::string>& words) {
   try {
     command.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them
   } catch (const CLI::ParseError& error) {
-    std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    throw Error(text);
+    throw Error(usage_text(error.what()));
   }
   return settings;
 }

@@ -21,3 +21,5 @@ sslam_unknown_word("'rooms' is one word too many for sslam run" run room rooms)
 sslam_unknown_word("'--aganst' is not an option of sslam merge. did you mean '--against'\\?" batch merge a b --aganst c)
 sslam_cli_test(NAME "help of a command" ARGS help run OUT "\nInput:\n" "\nTracking:\n" "\nOutput:\n" "Examples:\n  sslam run " "-o,--out DIR")
 sslam_cli_test(NAME "help of everything" ARGS help OUT "Subcommands:\n +run +Track a sequence" "sslam help run")
+sslam_cli_test(NAME "a number below an endless range" ARGS run room --fps 0 CODE 2
+               ERR "^sslam: error: --fps: Value 0 is out of range; expected a positive number .see sslam --help.\n$")
