@@ -7,14 +7,19 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/input/camera_options.hpp"
 #include "cli/input/topic_options.hpp"
+#include "cli/results/result_set.hpp"
+#include "cli/run/checkpoint.hpp"
+#include "cli/run/command_words.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/config_file.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "cli/shell/help_formatter.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
@@ -136,8 +141,53 @@ void add_output_options(CLI::App& command, RunSettings& s) {
       "model.ply");
   command.add_flag_callback(
       "--no-report", [&s] { s.report = false; }, "Leave report.html and the pictures for it out");
+  command
+      .add_option("--checkpoint", s.checkpoint,
+                  "Seconds after which the state of the run is kept in --out, for --resume, again and again; "
+                  "0: never; default 60, and never with --live, --view, --video, --record, --dense or a "
+                  "stream")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("SECONDS");
   put_in_group(command, "Output",
-               {"--out", "--scale", "--video", "--view", "--port", "--dense", "--no-report"});
+               {"--out", "--scale", "--video", "--view", "--port", "--dense", "--no-report", "--checkpoint"});
+}
+
+// What a run that goes on does not take from the one that stopped, and what may stand beside --resume.
+constexpr const char* kOwn[] = {"config", "out", "quiet", "verbose", "json-progress"};
+constexpr const char* kBesideResume[] = {"resume", "quiet", "verbose", "json-progress"};
+
+// The settings of the run that stopped in this folder.
+RunSettings resumed_settings(const std::string& folder) {
+  settle_results(folder);
+  auto checkpoint = std::make_shared<Checkpoint>(read_checkpoint(folder));
+  RunSettings settings;
+  CLI::App command;
+  add_run_options(command, settings);
+  settings.words = checkpoint->words;
+  try {
+    command.parse(std::vector<std::string>(settings.words.rbegin(), settings.words.rend()));
+  } catch (const CLI::Error& error) {
+    throw Error("--resume " + folder +
+                ": the options of the run that stopped no longer hold: " + error.what());
+  }
+  settings.out = folder;
+  settings.resumed = std::move(checkpoint);
+  return settings;
+}
+
+// `sslam run` as it was typed.
+void run_as_given(const CLI::App& command, const RunSettings& given, const std::string& resume) {
+  if (resume.empty()) {
+    RunSettings settings = given;
+    settings.words = words_of(command, kOwn);
+    return run(std::move(settings));
+  }
+  for (const CLI::Option* other : given_options(command, kBesideResume))
+    throw UsageError("--resume goes on with dataset and options of the run that stopped: leave " +
+                     (other->get_positional() ? "" : std::string("--")) + name_of(*other) + " out");
+  RunSettings settings = resumed_settings(resume);
+  settings.verbosity = given.verbosity;
+  run(std::move(settings));
 }
 
 }  // namespace
@@ -153,9 +203,21 @@ void add_run_command(CLI::App& app) {
   auto settings = std::make_shared<RunSettings>();
   add_config_option(*command);
   add_run_options(*command, *settings);
+  auto resume = std::make_shared<std::string>();
+  const auto resumes = [command, resume](const std::string& folder) {
+    *resume = folder;
+    command->get_option("dataset")->required(false);
+  };
+  command
+      ->add_option_function<std::string>("--resume", resumes,
+                                         "Go on where the run into this folder stopped, with its dataset and "
+                                         "options, from its last checkpoint")
+      ->trigger_on_parse()
+      ->type_name("DIR");
+  put_in_group(*command, "Output", {"--resume"});
   add_progress_options(*command, settings->verbosity, true);
   put_in_group(*command, "Messages", {"--quiet", "--verbose", "--json-progress"});
-  command->callback([settings] { run(*settings); });
+  command->callback([command, settings, resume] { run_as_given(*command, *settings, *resume); });
 }
 
 }  // namespace sslam::cli

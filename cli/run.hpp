@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,8 @@ enum class CalibrationMode {
   kRefine,  // where the map contradicts it, the run begins again with the camera that was found
   kFind,    // it is a guess, and the camera is found before the run begins
 };
+
+struct Checkpoint;
 
 struct RunSettings {
   std::string dataset;
@@ -61,6 +65,9 @@ struct RunSettings {
   int port = 0;            // of that page; 0: any free one
   double frame_rate = 30;  // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
+  std::optional<double> checkpoint;     // seconds from one to the next, at least; 0: none; empty: as is usual
+  std::vector<std::string> words;       // of the command line, for checkpoints; empty: none are made
+  std::shared_ptr<Checkpoint> resumed;  // to go on from; null: the run begins
 };
 
 // All options of `sslam run` but those of its messages; `settings` outlive the command.

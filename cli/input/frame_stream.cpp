@@ -56,9 +56,9 @@ void FrameStream::produce() {
     if (options_.source != nullptr) {
       produce_from_source();
     } else {
-      for (const io::FrameEntry& entry : dataset_.frames) {
+      for (std::size_t i = options_.first; i < dataset_.frames.size(); ++i) {
         SourceFrame frame;
-        frame.entry = entry;
+        frame.entry = dataset_.frames[i];
         if (!deliver(frame)) break;
       }
     }

@@ -36,6 +36,7 @@ struct FrameStreamOptions {
       nullptr;                   // of a wide lens, to undistort its images; null: they are taken as they are
   LiveSource* source = nullptr;  // where frames come from, instead of the dataset's list
   Recording* recording = nullptr;  // keeps what comes
+  std::size_t first = 0;           // position in the dataset of the first frame that is wanted
 };
 
 class FrameStream {
@@ -54,6 +55,11 @@ class FrameStream {
   // Of a frame that has been tracked, in one line. Empty: nothing to tell. A view without planes is no fault
   // of the input: the run's figures count it. What is wrong with a source as a whole is told once.
   [[nodiscard]] std::string fault_of_normals(const ExtractedFrame& frame);
+
+  // Of a source, so far.
+  [[nodiscard]] std::size_t dropped() const {
+    return options_.source ? options_.source->figures().dropped : 0;
+  }
 
   // No further frame is wanted. Waits for nothing.
   void stop();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,12 +35,17 @@ struct RunOutcome {
   MapsApart apart;
   std::vector<Parameter> parameters;
   std::vector<std::string> warnings;
-  std::vector<std::string> views;  // frames as encode_frame_view gives them
-  double wall_seconds = 0;         // of the whole run
-  double final_pass_seconds = 0;   // of it, what followed the last frame
-  int keyframes_not_made = 0;      // live: frames that mapping was too far behind for
-  std::size_t frames_dropped = 0;  // of a stream: they came while the tracker was busy
-  std::size_t stream_losses = 0;   // times that the stream broke and came back
+  std::vector<std::string> views;        // frames as encode_frame_view gives them
+  double wall_seconds = 0;               // of the whole run
+  double final_pass_seconds = 0;         // of it, what followed the last frame
+  int keyframes_not_made = 0;            // live: frames that mapping was too far behind for
+  std::size_t frames_dropped = 0;        // of a stream: they came while the tracker was busy
+  std::size_t stream_losses = 0;         // times that the stream broke and came back
+  std::size_t frames_taken = 0;          // images that were asked for, also those that could not be read
+  std::uint64_t checkpoints = 0;         // that were written
+  double checkpoint_seconds = 0;         // what they took, of the whole run
+  std::string checkpoint_problem;        // why there are no more; empty: nothing is wrong
+  std::vector<std::int64_t> resumed_at;  // frames at which it went on after it had been stopped
   bool interrupted = false;
   std::shared_ptr<const DenseResult> dense;      // null where it was not asked for
   ScaleRecord scale;                             // its factor is in poses and map

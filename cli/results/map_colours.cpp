@@ -8,7 +8,6 @@
 
 #include "sslam/io/files/output_file.hpp"
 #include "sslam/io/files/text.hpp"
-#include "sslam/io/maps/byte_archive.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -49,10 +48,10 @@ void put(io::ByteWriter& out, const std::vector<LandmarkColour>& colours) {
   }
 }
 
-std::vector<LandmarkColour> take(io::ByteReader& in, std::size_t wanted) {
+std::vector<LandmarkColour> take_list(io::ByteReader& in) {
   std::uint32_t count = 0;
   in(count);
-  if (count != wanted) throw Error("belongs to another map");
+  if (count > in.left().size()) throw Error("ends too early");
   std::vector<LandmarkColour> colours(count);
   for (LandmarkColour& colour : colours) {
     std::uint8_t known = 0;
@@ -61,6 +60,12 @@ std::vector<LandmarkColour> take(io::ByteReader& in, std::size_t wanted) {
     for (std::uint8_t& channel : rgb) in(channel);
     if (known != 0) colour = rgb;
   }
+  return colours;
+}
+
+std::vector<LandmarkColour> take(io::ByteReader& in, std::size_t wanted) {
+  std::vector<LandmarkColour> colours = take_list(in);
+  if (colours.size() != wanted) throw Error("belongs to another map");
   return colours;
 }
 
@@ -99,6 +104,29 @@ void FeatureColours::note(const Map<double>& map, const MapColours& colours) {
     if (keyframe.alive())
       frames_[{keyframe.frame.index, keyframe.frame.stamp}] = {copy(keyframe.point_landmarks, colours.points),
                                                                copy(keyframe.line_landmarks, colours.lines)};
+}
+
+void FeatureColours::put(io::ByteWriter& out) const {
+  out(static_cast<std::uint64_t>(frames_.size()));
+  for (const auto& [key, features] : frames_) {
+    out(key.first);
+    out(key.second);
+    cli::put(out, features.points);
+    cli::put(out, features.lines);
+  }
+}
+
+void FeatureColours::take(io::ByteReader& in) {
+  std::uint64_t frames = 0;
+  in(frames, {"the count of frames with colours", 0, in.left().size()});
+  for (std::uint64_t i = 0; i < frames; ++i) {
+    Key key;
+    in(key.first);
+    in(key.second, {"a stamp", -1e15, 1e15});
+    Features& features = frames_[key];
+    features.points = take_list(in);
+    features.lines = take_list(in);
+  }
 }
 
 MapColours FeatureColours::of(const Map<double>& map) const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sslam/geometry/camera.hpp"
+#include "sslam/io/maps/byte_archive.hpp"
 #include "sslam/io/maps/map_writer.hpp"
 #include "sslam/map/map.hpp"
 
@@ -40,6 +41,10 @@ class FeatureColours {
   void note(const Frame<double>& frame, const cv::Mat& picture, const Camera<double>& camera);
   // A map from a file, whose keyframes have no pictures here: its features look like their landmarks.
   void note(const Map<double>& map, const MapColours& colours);
+
+  // All of them, and back. Throws Error where an archive holds none.
+  void put(io::ByteWriter& out) const;
+  void take(io::ByteReader& in);
 
   // The median over the keyframes that see a landmark, channel by channel.
   [[nodiscard]] MapColours of(const Map<double>& map) const;

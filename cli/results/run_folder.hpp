@@ -23,7 +23,9 @@ inline constexpr const char* kReportFile = "report.html";
 inline constexpr const char* kCameraFoundFile = "camera_found.yaml";
 inline constexpr const char* kModelFile = "model.glb";  // of `--dense`
 inline constexpr const char* kModelPlyFile = "model.ply";
-inline constexpr const char* kTopViewFile = "topview.svg";  // of a run that tracked something
+inline constexpr const char* kTopViewFile = "topview.svg";           // of a run that tracked something
+inline constexpr const char* kCheckpointFile = ".sslam-checkpoint";  // of a run that has not ended
+inline constexpr std::array kCheckpointFiles{kCheckpointFile, ".sslam-checkpoint.part"};
 
 // Those that a run need not write.
 inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile,   kTruthFile,

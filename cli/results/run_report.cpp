@@ -17,6 +17,7 @@
 #include "cli/results/map_ply.hpp"
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
+#include "cli/results/run_health.hpp"
 #include "cli/results/truth_source.hpp"
 #include "cli/results/view_file.hpp"
 #include "cli/shell/messages.hpp"
@@ -302,6 +303,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
                   {"frames_dropped", outcome.frames_dropped},
                   {"stream_losses", outcome.stream_losses},
                   {"interrupted", outcome.interrupted},
+                  {"resumed_at", outcome.resumed_at},
                   {"keyframes", outcome.keyframes.size()},
                   {"keyframes_not_made", outcome.keyframes_not_made},
                   {"points", count_alive(outcome.map.points)},
@@ -325,6 +327,8 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   if (metric) metrics["trajectory_se3"] = evaluation_json(*metric);
   metrics["scale"] = scale_json(outcome.scale);
   metrics["warnings"] = outcome.warnings;
+  metrics["health"] = health_json(outcome);
+  metrics["checkpoints"] = {{"count", outcome.checkpoints}, {"seconds", outcome.checkpoint_seconds}};
   if (outcome.calibration) {
     metrics["calibration"] = calibration_json(*outcome.calibration);
     write_found_camera(out / kCameraFoundFile, context, *outcome.calibration);

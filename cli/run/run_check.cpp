@@ -92,6 +92,26 @@ void check_wide(const RunSettings& settings, const CameraChoice& camera) {
         "height=METRES or known=METRES");
 }
 
+CheckpointClock checkpoint_clock(const RunSettings& settings) {
+  const CheckpointClock never(0, 0);
+  const std::pair<bool, const char*> hindrances[] = {
+      {settings.live, "--live, which no two runs do alike"},
+      {settings.view, "--view, whose page would lack what was before"},
+      {!settings.video.empty(), "--video, which would begin anew"},
+      {!settings.record.empty(), "--record, which would begin anew"},
+      {settings.dense, "--dense, whose images are not kept"},
+      {stream_named(settings.dataset).has_value(), "a stream, which cannot be read again"},
+  };
+  for (const auto& [there, what] : hindrances) {
+    if (!there) continue;
+    if (settings.checkpoint.value_or(0) > 0) throw UsageError(std::string("--checkpoint: not with ") + what);
+    return never;
+  }
+  if (settings.words.empty()) return never;
+  // As usual: once a minute, and a hundredth of the time at most.
+  return settings.checkpoint ? CheckpointClock(*settings.checkpoint, 0) : CheckpointClock(60, 100);
+}
+
 std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set) {
   std::vector<ParameterValue> overrides;
   for (const std::string& text : set) overrides.push_back(parse_override(text));

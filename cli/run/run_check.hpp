@@ -9,6 +9,7 @@
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/normal_choice.hpp"
 #include "cli/run.hpp"
+#include "cli/run/checkpoint_clock.hpp"
 #include "sslam/system/parameter_value.hpp"
 #include "sslam/system/presets.hpp"
 
@@ -37,6 +38,9 @@ void check_normals(const RunSettings& settings, const io::Dataset& dataset, doub
 
 // Whether a lens that is too wide for a pinhole leaves what the settings ask for.
 void check_wide(const RunSettings& settings, const CameraChoice& camera);
+
+// When the run's checkpoints are due, if any are made.
+[[nodiscard]] CheckpointClock checkpoint_clock(const RunSettings& settings);
 
 // Each "stage.parameter=value", if the preset has all these parameters and they take these values.
 [[nodiscard]] std::vector<ParameterValue> set_parameters(const Preset& preset,

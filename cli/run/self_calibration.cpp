@@ -120,6 +120,20 @@ void SelfCalibration::find(Settings settings, CameraChoice& camera, const std::s
                         " (--calibration fixed keeps the given one)");
 }
 
+void SelfCalibration::keep(const CameraChoice& camera, CheckpointHead& head) const {
+  head.used = camera.camera;
+  head.camera_source = camera.source;
+  head.camera_replaced = record_.replaced;
+  head.camera_warnings = warnings_;
+}
+
+void SelfCalibration::go_on(const CheckpointHead& head, CameraChoice& camera) {
+  camera.camera = head.used;
+  camera.source = head.camera_source;
+  record_.replaced = head.camera_replaced;
+  warnings_ = head.camera_warnings;
+}
+
 std::string SelfCalibration::advice(const std::string& where) const {
   return source_ + ": the images contradict this calibration (" + camera_text(record_.given) +
          "); their own is " + camera_text(record_.last.camera) + "; track them again with --camera " + where;

@@ -9,6 +9,7 @@
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/mask_source.hpp"
 #include "cli/results/calibration_record.hpp"
+#include "cli/run/checkpoint.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/system/system.hpp"
 
@@ -20,10 +21,15 @@ class SelfCalibration {
   // guess: whatever stands in `camera`, it is looked for before the run. Dataset and masks outlive this.
   SelfCalibration(io::Dataset& dataset, const MaskSource& masks, const CameraChoice& camera, bool guess);
 
+  // The camera is one that was found.
+  [[nodiscard]] bool replaced() const noexcept { return record_.replaced; }
   // Nobody has calibrated this camera.
   [[nodiscard]] bool is_guess() const noexcept { return guess_; }
   // Puts the camera that is found into `camera`, and says so: it will stand in the file `where`.
   void find(Settings settings, CameraChoice& camera, const std::string& where);
+  // What another process needs to go on from here, and how it does.
+  void keep(const CameraChoice& camera, CheckpointHead& head) const;
+  void go_on(const CheckpointHead& head, CameraChoice& camera);
   // What the map says that has been made.
   void examine(const System& system);
   [[nodiscard]] bool contradicts() const noexcept { return record_.last.verdict == CameraVerdict::kDiffers; }

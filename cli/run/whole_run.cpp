@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "cli/dense/dense_result.hpp"
 #include "cli/input/shipped_model.hpp"
@@ -87,8 +88,9 @@ void WholeRun::open() {
   if (settings_.normals.empty()) choose_normals_source(preset);
   parameters_ = set_parameters(preset, settings_.set);
   scale_ = parse_scale(settings_.scale);
-  if (!settings_.map.empty()) known_ = load_run_map(settings_.map);
-  goes_on_ = !known_.empty();
+  checkpoints_ = checkpoint_clock(settings_);
+  goes_on_ = !settings_.map.empty();
+  if (goes_on_ && !settings_.resumed) known_ = load_run_map(settings_.map);
   open_images();
   print_notes(camera_);
   check_normals(settings_, dataset_, camera_.depth_factor);
@@ -98,6 +100,8 @@ void WholeRun::open() {
   if (!settings_.mask.empty())
     masks_ = MaskSource(settings_.mask, {camera_.camera.width, camera_.camera.height});
   wanted_ = system_settings();
+  head_ = begun_checkpoint(settings_.words, dataset_, camera_.camera);
+  if (settings_.resumed) check_resumed(*settings_.resumed, dataset_, camera_.camera, settings_.out);
   open_output();
   if (!interrupt_) interrupt_.emplace();
 }
@@ -128,6 +132,10 @@ void WholeRun::open_images() {
 void WholeRun::open_output() {
   io::prepare_output_folder(settings_.out);
   lock_.emplace(FolderLock::demand(settings_.out));
+  if (!settings_.resumed && has_checkpoint(settings_.out))
+    print_note(settings_.out +
+               ": holds the checkpoint of a run that stopped, from which sslam run --resume " +
+               settings_.out + " would go on; this run takes its place");
   if (settings_.record.empty()) return;
   recording_.emplace(settings_.record);
   keep_camera(camera_, *recording_);
@@ -135,30 +143,33 @@ void WholeRun::open_output() {
 
 void WholeRun::track() {
   calibration_.emplace(dataset_, masks_, camera_, settings_.calibration == CalibrationMode::kFind);
-  if (repeats() && calibration_->is_guess()) {
-    calibration_->find(std::move(wanted_), camera_, found_at());
-    wanted_ = system_settings();
-  }
+  const bool finds = !settings_.resumed && repeats() && calibration_->is_guess();
+  if (settings_.resumed) calibration_->go_on(*settings_.resumed, camera_);
+  if (finds) calibration_->find(std::move(wanted_), camera_, found_at());
+  if (settings_.resumed || finds) wanted_ = system_settings();
   begin_pass();
   if (examines() && !outcome().interrupted) examine_camera();
   follow_up();
 }
 
 void WholeRun::begin_pass() {
-  pass_ = std::make_unique<RunPass>(settings_, dataset_, camera_, std::move(wanted_));
+  calibration_->keep(camera_, head_);
+  pass_ = std::make_unique<RunPass>(settings_, dataset_, camera_, std::move(wanted_), head_);
   if (!known_.empty()) pass_->go_on_in(std::exchange(known_, {}));
-  pass_->track(dataset_, stream_options());
+  if (const auto resumed = std::exchange(settings_.resumed, nullptr)) pass_->go_on_from(std::move(*resumed));
+  pass_->track(dataset_, stream_options(), checkpoints_);
 }
 
 void WholeRun::examine_camera() {
   calibration_->examine(pass_->system);
-  if (repeats() && !calibration_->is_guess() && calibration_->contradicts()) {
+  const bool second = calibration_->replaced() && !calibration_->is_guess();  // and the last
+  if (!second && repeats() && !calibration_->is_guess() && calibration_->contradicts()) {
     pass_.reset();
     calibration_->find(system_settings(), camera_, found_at());
     wanted_ = system_settings();
     begin_pass();
     calibration_->examine(pass_->system);
-  } else if (calibration_->contradicts()) {
+  } else if (!second && calibration_->contradicts()) {
     pass_->system.warn(calibration_->advice(found_at()));
   }
   outcome().calibration = calibration_->record();
@@ -175,6 +186,7 @@ void WholeRun::follow_up() {
   outcome.warnings.insert(outcome.warnings.begin(), calibration_->warnings().begin(),
                           calibration_->warnings().end());
   print_warnings(outcome.warnings);
+  pass_->tell_health();
 }
 
 void WholeRun::write() {
@@ -182,17 +194,23 @@ void WholeRun::write() {
   ResultSet results(settings_.out);
   write_run(pass_->context, outcome, results.stage());
   const bool interrupted = outcome.interrupted, tracked = !outcome.trajectory.empty();
+  std::vector<const char*> older(kOptionalFiles.begin(), kOptionalFiles.end());
+  // What was interrupted can go on.
+  if (!interrupted || !pass_->has_checkpoint())
+    older.insert(older.end(), kCheckpointFiles.begin(), kCheckpointFiles.end());
   const std::string last_reason = last_reason_of(outcome);
   outcome = {};  // the report is made from the files, and needs the room
   std::string page;
   if (settings_.report || pass_->live)
     page = report_of(results.stage(), folder_name(std::filesystem::path(settings_.out)));
   if (settings_.report) write_report(results.stage(), page);
-  results.commit(kOptionalFiles);
+  results.commit(older);
   std::printf("written to       %s\n", settings_.out.c_str());
   if (pass_->video) pass_->video->commit();
   if (interrupted || Interrupt::asked()) {
-    print_warning("interrupted; what had been computed was written");
+    const bool resumable = has_checkpoint(settings_.out);
+    print_warning("interrupted; what had been computed was written" +
+                  (resumable ? "; sslam run --resume " + settings_.out + " goes on from here" : ""));
     throw Stop{ExitCode::kInterrupted};
   }
   if (!tracked) print_error(settings_.dataset + ": no frame was tracked; last reason: " + last_reason);

@@ -12,6 +12,8 @@
 #include "cli/input/mask_source.hpp"
 #include "cli/results/folder_lock.hpp"
 #include "cli/run.hpp"
+#include "cli/run/checkpoint.hpp"
+#include "cli/run/checkpoint_clock.hpp"
 #include "cli/run/metric_scale.hpp"
 #include "cli/run/run_pass.hpp"
 #include "cli/run/self_calibration.hpp"
@@ -64,6 +66,8 @@ class WholeRun {
   std::optional<WideView> view_;
   MaskSource masks_;
   Settings wanted_;  // of the pass that is to begin
+  CheckpointHead head_;
+  CheckpointClock checkpoints_{0, 0};
   std::optional<FolderLock> lock_;
   std::optional<SelfCalibration> calibration_;
   std::unique_ptr<RunPass> pass_;

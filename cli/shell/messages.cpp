@@ -4,10 +4,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 namespace sslam::cli {
 namespace {
@@ -78,22 +77,21 @@ void print_json(const nlohmann::ordered_json& object) {
   std::fprintf(message_stream(), "%s\n", line.c_str());
 }
 
-void print_warnings(std::span<const std::string> warnings, std::size_t at_most) {
-  struct Kind {
-    std::string text;
-    const std::string* first;
-    std::size_t count;
-  };
-  std::vector<Kind> kinds;
+std::vector<WarningKind> kinds_of(std::span<const std::string> warnings) {
+  std::vector<WarningKind> kinds;
+  std::map<std::string, std::size_t> places;  // of what is the same in them
   for (const std::string& warning : warnings) {
-    const std::string text = without_numbers(warning);
-    const auto known =
-        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.text == text; });
-    if (known == kinds.end())
-      kinds.push_back({text, &warning, 1});
+    const auto [known, is_new] = places.emplace(without_numbers(warning), kinds.size());
+    if (is_new)
+      kinds.push_back({&warning, 1});
     else
-      ++known->count;
+      ++kinds[known->second].count;
   }
+  return kinds;
+}
+
+void print_warnings(std::span<const std::string> warnings, std::size_t at_most) {
+  const std::vector<WarningKind> kinds = kinds_of(warnings);
   const std::size_t shown = kinds.size() <= at_most ? kinds.size() : at_most - 1;
   for (std::size_t i = 0; i < shown; ++i) {
     const std::string more =

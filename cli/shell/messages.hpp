@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sslam::cli {
 
@@ -27,6 +28,15 @@ void print_warning(const std::string& text);
 void print_note(const std::string& text);
 // A line of its own, whatever the form of messages.
 void print_json(const nlohmann::ordered_json& object);
+
+// Warnings that differ in their numbers alone, such as that of a frame.
+struct WarningKind {
+  const std::string* first;  // of the warnings that were given
+  std::size_t count;
+};
+
+// In the order in which they came first.
+[[nodiscard]] std::vector<WarningKind> kinds_of(std::span<const std::string> warnings);
 
 // One line a kind, with a count: a thousand bad frames must not hide the line that matters. Warnings that
 // differ in what stands before their last ": " alone, such as the file, are of one kind. At most so many

@@ -127,7 +127,7 @@ void Progress::renew_line(const std::string& detail) {
 
 void Progress::print_line(const std::string& detail) {
   const double elapsed = seconds();
-  const double rate = elapsed > 0 ? static_cast<double>(done_) / elapsed : 0;
+  const double rate = elapsed > 0 ? static_cast<double>(done_ - begun_) / elapsed : 0;
   std::string line = task_ + ' ' + std::to_string(done_);
   if (total_ > 0) {
     constexpr std::size_t kWidth = 12;
@@ -152,6 +152,20 @@ void Progress::print_line(const std::string& detail) {
 void Progress::clear_line() {
   if (open_line_) std::fputs("\r\033[K", message_stream());
   open_line_ = false;
+}
+
+void Progress::tell_now_and_then(const std::function<Json()>& health) {
+  constexpr std::chrono::seconds kInterval{10};
+  if (verbosity_ != Verbosity::kJson || Clock::now() - told_ < kInterval) return;
+  told_ = Clock::now();
+  tell(health());
+}
+
+void Progress::tell(const Json& health) {
+  if (verbosity_ != Verbosity::kJson) return;
+  Json event = {{"event", "health"}, {"task", task_}};
+  event.update(health);
+  print_json(event);
 }
 
 void Progress::finish() {

@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -25,9 +27,14 @@ class Progress {
   // total: steps to come; 0: not known. task: what is in progress, such as "run".
   Progress(std::size_t total, Verbosity verbosity, std::string task);
 
+  void begin_at(std::size_t done) noexcept { begun_ = done_ = done; }  // steps of an earlier process
+
   void show(const FrameReport& frame);
   void show(const std::string& detail);  // what stands behind the count and the rate
-  void finish();                         // leaves the last line standing
+  // An event for programs that watch over the task, from time to time; health() is asked when it is told.
+  void tell_now_and_then(const std::function<nlohmann::ordered_json()>& health);
+  void tell(const nlohmann::ordered_json& health);  // the same, now
+  void finish();                                    // leaves the last line standing
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -38,7 +45,7 @@ class Progress {
   [[nodiscard]] double seconds() const;
 
   std::size_t total_;
-  std::size_t done_ = 0;
+  std::size_t begun_ = 0, done_ = 0;
   Verbosity verbosity_;
   std::string task_;
   bool terminal_;
@@ -46,6 +53,7 @@ class Progress {
   std::optional<State> last_state_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_{};
+  Clock::time_point told_ = start_;  // of its health
   std::mutex mutex_;
 };
 

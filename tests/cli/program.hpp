@@ -40,16 +40,18 @@ struct Outcome {
   return run_command(before + std::string(SSLAM_COMMAND) + " " + arguments + " 2>&1");
 }
 
-// As by Ctrl-C, as soon as the program tells of its first frame or image; it may be so fast that all is done
-// by then. What it told of its progress is part of the text.
-[[nodiscard]] inline Outcome interrupt_program(const std::string& arguments) {
+// As by Ctrl-C, as soon as the program tells of its first frame or image, or of another event; it may be so
+// fast that all is done by then. What it told of its progress is part of the text.
+[[nodiscard]] inline Outcome interrupt_program(const std::string& arguments,
+                                               const std::string& event = "\"done\":1,",
+                                               int signal = SIGINT) {
   int process = 0;
   const std::string command = "exec 2>&1; echo $$; exec " + std::string(SSLAM_COMMAND) + " " + arguments;
-  return run_command(command + " --json-progress", [&process](const std::string& line) {
+  return run_command(command + " --json-progress", [&](const std::string& line) {
     if (process == 0) {
       process = std::stoi(line);
-    } else if (process > 0 && line.find("\"done\":1,") != std::string::npos) {
-      kill(std::exchange(process, -1), SIGINT);
+    } else if (process > 0 && line.find(event) != std::string::npos) {
+      kill(std::exchange(process, -1), signal);
     }
   });
 }

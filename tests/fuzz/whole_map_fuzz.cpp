@@ -12,14 +12,8 @@ namespace {
 constexpr std::size_t kHead = 8 + 4 + 8 + 8;
 
 std::size_t mend(std::uint8_t* data, std::size_t size) {
-  namespace detail = sslam::io::map_file_detail;
   const std::string_view fields(reinterpret_cast<const char*>(data) + kHead, size - kHead);
-  detail::Header header;
-  header.size = fields.size();
-  header.checksum = sslam::io::checksum(fields);
-  sslam::io::ByteWriter head;
-  header.fields(head);
-  const std::string start = std::string(detail::kMagic) + head.bytes;
+  const std::string start = sslam::io::sealed_head(sslam::io::kMapFile, fields);
   std::copy(start.begin(), start.end(), data);
   return size;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "sslam/core/parameter_table.hpp"
 #include "sslam/map/map.hpp"
@@ -12,7 +13,7 @@
 #include "sslam/track/contract/result.hpp"
 #include "sslam/track/contract/stage_timer.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
-#include "sslam/track/worlds/trajectory_log.hpp"
+#include "sslam/track/worlds/world.hpp"
 
 namespace sslam {
 
@@ -30,6 +31,10 @@ class Engine {
   virtual TrackResult<double> track(Frame<double>& frame) = 0;  // swaps the frame's buffers for others
   virtual bool finish() = 0;                                    // true if that closed a loop
   virtual void resume(Map<double> map) = 0;
+  // Its worlds, the camera's first, and how another engine of its kind goes on with their maps and logs.
+  [[nodiscard]] virtual std::vector<const World<double>*> worlds() const = 0;
+  [[nodiscard]] virtual int last_number() const = 0;  // of a world that was begun
+  virtual void go_on(std::vector<World<double>> known, int begun_last) = 0;
   virtual void localise_only(bool on) = 0;
   virtual void keep_frames(bool on) = 0;  // so that finish() can track them again
 

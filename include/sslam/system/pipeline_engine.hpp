@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "sslam/system/engine.hpp"
 #include "sslam/system/wall_timer.hpp"
@@ -20,6 +21,11 @@ class PipelineEngine final : public Engine {
   TrackResult<double> track(Frame<double>& frame) override { return pipeline_.track(frame); }
   bool finish() override { return pipeline_.finish(); }
   void resume(Map<double> map) override { pipeline_.resume(std::move(map)); }
+  [[nodiscard]] std::vector<const World<double>*> worlds() const override { return pipeline_.worlds(); }
+  [[nodiscard]] int last_number() const override { return pipeline_.last_number(); }
+  void go_on(std::vector<World<double>> known, int begun_last) override {
+    pipeline_.go_on(std::move(known), begun_last);
+  }
   void localise_only(bool on) override { pipeline_.localise_only = on; }
   void keep_frames(bool on) override { pipeline_.keep_frames = on; }
 

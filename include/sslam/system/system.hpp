@@ -15,6 +15,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sslam/io/trajectories/trajectory.hpp"
@@ -75,6 +76,14 @@ class BasicSystem {
   void save(const std::filesystem::path& path) const;
   void load(const std::filesystem::path& path);
   void resume(Map<double> map);
+
+  // What another system with the same settings needs to go on from here with the next image: the worlds, the
+  // camera's first, of which go_on() takes maps and logs. Its first frames are lost until one is recognised.
+  [[nodiscard]] std::vector<const World<double>*> worlds() const { return engine_->worlds(); }
+  [[nodiscard]] int last_number() const { return engine_->last_number(); }  // of a world that was begun
+  void go_on(std::vector<World<double>> known, int begun_last) {
+    engine_->go_on(std::move(known), begun_last);
+  }
 
   // True: no keyframe is made and no map begun, left or joined: the camera is looked for in the map as it is.
   void localise_only(bool on) { engine_->localise_only(on); }

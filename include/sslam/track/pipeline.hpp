@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "sslam/track/matching/image_fixed_features.hpp"
 #include "sslam/track/world_keeping.hpp"
@@ -24,6 +25,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
       Worlds::timer;
   using Worlds::fallback, Worlds::refinement, Worlds::rotation, Worlds::stance;
   using Worlds::initialisation, Worlds::keyframes, Worlds::loops, Worlds::mapping, Worlds::upkeep;
+  using Worlds::last_number, Worlds::worlds;
   using Worlds::translation;
 
   ImageFixedFeatures<S> image_fixed;
@@ -71,6 +73,14 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     Worlds::start_over(std::move(map));
     world_.cursor.move_to(0, world_.map.keyframes.front().frame.stamp);  // never removed
     trial.begin_in_given_map();
+  }
+
+  // Goes on where another pipeline stood, with the maps and logs of its worlds, the camera's first. What the
+  // stages had learned of the images is learned anew, and the next frames are lost until one is recognised.
+  void go_on(std::vector<World<S>> known, int begun_last) {
+    Worlds::take_over(std::move(known), begun_last);
+    many_fixed_ = !world_.map.empty();  // a map that has lasted is not given up for them
+    if (!world_.map.empty()) trial.add_lost(Frame<S>(), 0);
   }
 
   // Takes what mapping elsewhere has still to say, and waits for it; true if that closed a loop. Of several

@@ -3,7 +3,9 @@
 // remember of one follows.
 #pragma once
 
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "sslam/track/pose_tracking.hpp"
 #include "sslam/track/worlds/atlas.hpp"
@@ -26,6 +28,15 @@ class WorldKeeping : public PoseTracking<S, Stages> {
   typename Stages::Final final_pass;
   typename Stages::Upkeep
       upkeep;  // after the stages that it may still be at work with when the pipeline ends
+
+  // The worlds that there are, the camera's first, and the number of the one that was begun last: what
+  // go_on() takes.
+  [[nodiscard]] std::vector<const World<S>*> worlds() const {
+    std::vector<const World<S>*> all{&world_};
+    for (const World<S>& world : atlas.worlds()) all.push_back(&world);
+    return all;
+  }
+  [[nodiscard]] int last_number() const noexcept { return last_number_; }
 
  protected:
   [[nodiscard]] const Keyframe<S>& reference() const {
@@ -58,6 +69,23 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     world_.map = std::move(map);
     trial.begin_again();
     frames_.current().forget_manhattan();
+    enter_world();
+  }
+
+  // These worlds, of which maps and logs are known, take the place of all.
+  void take_over(std::vector<World<S>> known, int begun_last) {
+    start_over({});
+    last_number_ = begun_last;
+    for (World<S>& world : known) {
+      world.trial = trial;
+      if (world.map.empty()) continue;
+      const Keyframe<S>& latest =
+          world.map.keyframes[world.map.index(world.map.surviving(world.map.keyframes.back().id))];
+      world.cursor.move_to(latest.id, latest.frame.stamp);
+    }
+    atlas.worlds().clear();
+    for (std::size_t i = 1; i < known.size(); ++i) atlas.lay_aside(std::move(known[i]));
+    world_ = std::move(known.front());
     enter_world();
   }
 

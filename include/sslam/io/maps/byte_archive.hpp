@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -29,6 +30,12 @@ struct ByteWriter {
   void operator()(const T& value, const FieldRange<T>&) {
     (*this)(value);
   }
+
+  // Its length, then its bytes.
+  void operator()(const std::string& text) {
+    (*this)(static_cast<std::uint64_t>(text.size()));
+    bytes += text;
+  }
 };
 
 // Takes from the front of a view; throws Error at its end, and where a field is out of its range.
@@ -45,6 +52,12 @@ class ByteReader {
   void operator()(T& value, const FieldRange<T>& range) {
     (*this)(value);
     range.demand(value);
+  }
+
+  void operator()(std::string& text) {
+    std::uint64_t size = 0;
+    (*this)(size);
+    text = take(size);
   }
 
   [[nodiscard]] std::string_view take(std::size_t size) {

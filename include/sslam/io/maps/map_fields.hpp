@@ -31,6 +31,9 @@ class MapFields {
     list("Manhattan frames", map.world_from_manhattan);
   }
 
+  // A pose by itself.
+  void walk(SE3<double>& pose) { fields(pose); }
+
  private:
   // Wider than anything that a camera sees, and so narrow that squares and products stay finite.
   static constexpr double kMetres = 1e15, kPixels = 1e9, kCovariance = 1e30;

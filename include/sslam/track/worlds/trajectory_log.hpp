@@ -26,6 +26,9 @@ class TrajectoryLog {
     entries_.push_back({index, stamp, reference, cam_from_world * map.pose(reference).inverse()});
   }
 
+  // As another log has it, of the same map.
+  void add(const TrajectoryEntry<S>& entry) { entries_.push_back(entry); }
+
   // In the order of the dataset.
   void sort() { std::stable_sort(entries_.begin(), entries_.end(), earlier); }
 
