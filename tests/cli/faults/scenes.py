@@ -7,9 +7,11 @@ import re
 import shutil
 import subprocess
 
-SMALL = ("--frames", "14", "--fps", "8", "--size", "240x180", "--no-depth", "--no-normals", "--texture", "poor", "--quiet")
+PLAIN = ("--no-depth", "--no-normals", "--texture", "poor", "--quiet")
+SMALL = ("--frames", "14", "--fps", "8", "--size", "240x180", *PLAIN)
 FOREIGN = "is not the file that belongs to metrics.json"
-READY, STAGE = ".sslam-ready", ".sslam-new"  # docs/run.md says what they are
+READY, STAGE, CHECKPOINT = ".sslam-ready", ".sslam-new", ".sslam-checkpoint"  # docs/run.md says what they are
+MODEL = pathlib.Path(__file__).parents[2] / "opencv" / "fixtures" / "tiny_normals.onnx"
 
 
 class Mixture(Exception):
@@ -24,7 +26,7 @@ def demand(holds, what):
 def content(folder):
     """Every file below a folder, but what stands beside it on its way to its name."""
     return {str(file.relative_to(folder)): file.read_bytes() for file in sorted(folder.rglob("*"))
-            if file.is_file() and not {READY, STAGE} & set(file.relative_to(folder).parts) and file.suffix != ".part"}
+            if file.is_file() and not {READY, STAGE, CHECKPOINT} & set(file.relative_to(folder).parts) and file.suffix != ".part"}
 
 
 def fnv1a(data):
@@ -186,6 +188,26 @@ class Synth(Scene):
         return "new"
 
 
+class Normals(Scene):
+    """No set: each file by itself is the old one or the new one, and whole."""
+    name = "normals"
+
+    def __init__(self, world):
+        super().__init__(world)
+        before = self.home / "room"
+        world.must("synth", before, *SMALL, "--seed", "4")
+        world.must("normals", before, "--model", MODEL, "--quiet", "--out", self.old)
+        self.arguments = ["normals", world.room, "--model", MODEL, "--quiet", "--out", self.out]
+        self.new = world.new_files(self)
+
+    def judge(self, code):
+        files, old = content(self.out), content(self.old)
+        demand(set(files) == set(old), f"files {sorted(set(files) ^ set(old))}")
+        for name, data in files.items():
+            demand(data == self.new[name] or (code != 0 and data == old[name]), f"{name} is neither the old file nor the new one")
+        return "old" if files == old else "new" if files == self.new else "old and new files"
+
+
 class World:
     """What all scenes begin with: a room, and two runs through it."""
 
@@ -207,6 +229,3 @@ class World:
         scene.restore()
         self.must(*scene.arguments)
         return content(scene.out)
-
-
-SHARES = {Run: 8, Export: 3, Report: 2, Batch: 4, Synth: 3}

@@ -111,6 +111,41 @@ TEST_CASE("Two maps become one where the way leads from one into the other") {
   REQUIRE_NOTHROW(io::check_map(pipeline.map()));
 }
 
+TEST_CASE("A pipeline goes on where another stood, with the map that was left as well") {
+  Simulation simulation(walk_and_return());
+  constexpr std::size_t kStop = kFirst + kAway;
+  presets::Structure<double> stopped, pipeline;
+  for (std::size_t k = 0; k < kStop; ++k) {
+    Frame<double> frame = simulation.frame(k);
+    (void)stopped.track(frame);
+  }
+  std::vector<World<double>> worlds;
+  for (const World<double>* world : stopped.worlds()) {
+    World<double>& kept = worlds.emplace_back();
+    kept.number = world->number;
+    kept.map = world->map;
+    kept.log = world->log;
+  }
+  REQUIRE(worlds.size() == 2);
+  REQUIRE(worlds[0].number == 1);
+  pipeline.go_on(worlds, stopped.last_number());
+  REQUIRE(pipeline.trajectory().entries().size() == stopped.trajectory().entries().size());
+  int joined = 0;
+  for (std::size_t k = kStop; k < simulation.size(); ++k) {
+    Frame<double> frame = simulation.frame(k);
+    const TrackResult<double> result = pipeline.track(frame);
+    REQUIRE(result.has_pose());
+    REQUIRE((k > kStop || result.reason == Reason::kRelocalised));
+    joined += result.maps_joined ? 1 : 0;
+  }
+  REQUIRE(joined == 1);
+  REQUIRE(pipeline.world() == 0);
+  REQUIRE(pipeline.atlas.worlds().empty());
+  REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
+  REQUIRE(position_error(pipeline, simulation) < 0.03);
+  REQUIRE_NOTHROW(io::check_map(pipeline.map()));
+}
+
 TEST_CASE("Two maps become one while mapping comes late") {
   Simulation simulation(walk_and_return());
   presets::With<presets::Structure<double>, slots::Upkeep<DeferredUpkeep<double, StepChannel>>> pipeline;
