@@ -12,6 +12,7 @@
 #include "cli/input/image_header.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
 
@@ -51,15 +52,18 @@ namespace sslam::cli {
   return {cv::IMWRITE_PNG_COMPRESSION, 1};
 }
 
-// parameters as cv::imwrite takes them. Throws Error when the file cannot be written.
+// parameters as cv::imwrite takes them. The file appears when it is complete. Throws Error when it cannot be
+// written.
 inline void write_image(const std::filesystem::path& path, const cv::Mat& image,
                         const std::vector<int>& parameters) {
-  bool written = false;
+  std::vector<std::uint8_t> bytes;
+  bool encoded = false;
   try {
-    written = cv::imwrite(path.string(), image, parameters);
+    encoded = cv::imencode(path.extension().string(), image, bytes, parameters);
   } catch (const cv::Exception&) {
   }
-  if (!written) throw Error(path.string() + ": cannot write this image");
+  if (!encoded) throw Error(path.string() + ": cannot write this image");
+  io::write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 // Asks the container which frames it has and when; at most `at_most` of them, if that is not negative. Throws
