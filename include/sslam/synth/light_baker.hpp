@@ -55,6 +55,7 @@ class LightBaker {
   };
   using Blockers = std::vector<Blocker>;
   static constexpr int kRays = 40, kLampRays = 3, kTile = 8;
+  static constexpr double kSlack = 0.002;  // nodes stand off their face by less than this, in metres
   static constexpr double kThin =
       0.06;  // blockers that stand out less than this are finer than the light map
 
@@ -107,12 +108,23 @@ class LightBaker {
             normal.dot(face.origin)};
   }
 
+  // Whether the tile lies behind the face's plane, where it is not seen.
+  static bool behind(const Face& other, const Ball& tile) {
+    return other.normal().dot(tile.centre - other.origin) < -(tile.radius + kSlack);
+  }
+
+  static double gap(const Face& other, const Vec3<double>& from) {
+    const Vec3<double> off = from - other.origin;
+    const double s = std::clamp(other.along_s.dot(off), 0.0, other.width);
+    const double t = std::clamp(other.along_t.dot(off), 0.0, other.height);
+    return (other.at(s, t) - from).norm();
+  }
+
   [[nodiscard]] Blockers blockers_near(const Face& face, const Ball& tile) const {
     Blockers found;
+    const double range = tile.radius + kReaches * options_.reach + kSlack;
     for (const Face& other : scene_.faces) {
-      const Ball b = ball(other);
-      const double range = tile.radius + b.radius + kReaches * options_.reach;
-      if ((b.centre - tile.centre).squaredNorm() < range * range && may_block(face, other)) {
+      if (!behind(other, tile) && gap(other, tile.centre) < range && may_block(face, other)) {
         found.push_back(blocker(other));
       }
     }
@@ -126,7 +138,7 @@ class LightBaker {
     const Vec3<double> run = lamp.centre - tile.centre;
     const double lamp_radius = std::sqrt(lamp.half_s.squaredNorm() + lamp.half_t.squaredNorm());
     for (const Face& other : scene_.faces) {
-      if (std::min(other.width, other.height) < 0.04) continue;
+      if (std::min(other.width, other.height) < 0.04 || behind(other, tile)) continue;
       const Ball b = ball(other);
       const double along = std::clamp(run.dot(b.centre - tile.centre) / run.squaredNorm(), 0.0, 1.0);
       const double range = b.radius + std::max(tile.radius, lamp_radius);
@@ -142,19 +154,27 @@ class LightBaker {
     return lamp.normal.dot(from - lamp.centre) <= -slack || (lamp.centre - from).norm() > kReach + slack;
   }
 
-  // Distance to the first blocker whose front a unit direction meets, at most `limit`.
+  // The distance at which a unit direction meets the blocker's front, or `limit` where that is nearer.
+  static double hit(const Blocker& b, const Vec3<double>& from, const Vec3<double>& direction, double limit) {
+    const double speed = b.normal.dot(direction);
+    if (speed >= -1e-9) return limit;
+    const double distance = (b.offset - b.normal.dot(from)) / speed;
+    if (distance < 1e-3 || distance >= limit) return limit;
+    const Vec3<double> at = from + distance * direction - b.origin;
+    const double s = b.s.dot(at), t = b.t.dot(at);
+    return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0 ? distance : limit;
+  }
+
   static double first_hit(const Blockers& blockers, const Vec3<double>& from, const Vec3<double>& direction,
                           double limit) {
-    for (const Blocker& b : blockers) {
-      const double speed = b.normal.dot(direction);
-      if (speed >= -1e-9) continue;
-      const double distance = (b.offset - b.normal.dot(from)) / speed;
-      if (distance < 1e-3 || distance >= limit) continue;
-      const Vec3<double> hit = from + distance * direction - b.origin;
-      const double s = b.s.dot(hit), t = b.t.dot(hit);
-      if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) limit = distance;
-    }
+    for (const Blocker& b : blockers) limit = hit(b, from, direction, limit);
     return limit;
+  }
+
+  static bool any_hit(const Blockers& blockers, const Vec3<double>& from, const Vec3<double>& direction,
+                      double limit) {
+    return std::any_of(blockers.begin(), blockers.end(),
+                       [&](const Blocker& b) { return hit(b, from, direction, limit) < limit; });
   }
 
   [[nodiscard]] double openness(const Blockers& near, const Vec3<double>& from, const Face& face) const {
@@ -178,7 +198,7 @@ class LightBaker {
       const double distance = ray.norm();
       const double facing = normal.dot(ray) / distance, leaving = -lamp.normal.dot(ray) / distance;
       if (facing <= 0.0 || leaving <= 0.0) continue;
-      if (first_hit(blockers, from, ray / distance, distance - 0.02) < distance - 0.021) continue;
+      if (any_hit(blockers, from, ray / distance, distance - 0.021)) continue;
       sum += facing * leaving / std::max(distance * distance, 0.05);
     }
     return lamp.power * sum / (kLampRays * kLampRays);

@@ -123,7 +123,7 @@ enum class Pattern : std::uint8_t { kPlaster, kSpeckle, kWood, kPlanks, kTiles, 
 [[nodiscard]] inline Texture bake_pattern(Pattern pattern, float width_m, float height_m, float texel_m,
                                           std::uint32_t seed) {
   return Texture::bake(width_m, height_m, texel_m, 1,
-                       [&](float s, float t, float* out) { out[0] = evaluate(pattern, s, t, seed); });
+                       [=](float s, float t, float* out) { out[0] = evaluate(pattern, s, t, seed); });
 }
 
 }  // namespace sslam::synth

@@ -76,7 +76,7 @@ struct PrintedShape {
   const float letter = random.uniform(0.018f, 0.035f);
   const float block = random.uniform(0.15f, 0.4f) * height_m;
   const float margin = 0.06f * width_m;
-  return Texture::bake(width_m, height_m, texel_m, 3, [&](float s, float t, float* out) {
+  return Texture::bake(width_m, height_m, texel_m, 3, [=](float s, float t, float* out) {
     Vec3<float> colour = paper;
     for (const PrintedShape& shape : shapes) {
       colour += shape.coverage(s, t, 2.0f * texel_m) * (shape.colour - colour);
@@ -102,7 +102,7 @@ struct PrintedShape {
     spines.push_back({s, height_m * random.uniform(0.65f, 0.97f), random.uniform(0.4f, 0.8f),
                       random_colour(random, 0.08f, 0.8f), random_colour(random, 0.3f, 1.0f)});
   }
-  return Texture::bake(width_m, height_m, texel_m, 3, [&](float s, float t, float* out) {
+  return Texture::bake(width_m, height_m, texel_m, 3, [=](float s, float t, float* out) {
     std::size_t i = 0;
     while (i + 1 < spines.size() && s > spines[i].end) ++i;
     const Spine& spine = spines[i];
@@ -121,7 +121,7 @@ struct PrintedShape {
 
 // Sky over a soft skyline.
 [[nodiscard]] inline Texture bake_outdoors(float width_m, float height_m, float texel_m, std::uint32_t seed) {
-  return Texture::bake(width_m, height_m, texel_m, 3, [&](float s, float t, float* out) {
+  return Texture::bake(width_m, height_m, texel_m, 3, [=](float s, float t, float* out) {
     const float skyline = height_m * (0.25f + 0.3f * value_noise(2.5f * s, 0.5f, seed));
     const float sky = smooth_step(skyline - 0.04f, skyline + 0.04f, t);
     const float cloud = octave_noise(1.5f * s, 3.0f * t, 4, 0.5f, seed + 1);

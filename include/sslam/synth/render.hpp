@@ -110,7 +110,7 @@ class Renderer {
     return frame.surface[static_cast<std::size_t>(block.top) * frame.width + block.left];
   }
 
-  void paint(const RenderedFrame& frame, const LensPoint& point, float* out) const noexcept {
+  void paint(const RenderedFrame& frame, const LensPoint& point, float* out) const {
     const PixelBlock block = block_around(point.place);
     if (visibility_.mixed(frame, block)) {
       shade_edge(frame, block, point, out);
@@ -130,7 +130,7 @@ class Renderer {
     return seen < 0 ? -1 : ids[seen];
   }
 
-  void shade(int id, float u, float v, const Mat2<float>& spread, float* out) const noexcept {
+  void shade(int id, float u, float v, const Mat2<float>& spread, float* out) const {
     const Shading& k = shading_[id];
     const float z = 1.0f / (k.w.x() * u + k.w.y() * v + k.w.z());
     const float s = std::clamp((k.s.x() * u + k.s.y() * v + k.s.z()) * z, 0.0f, k.width);
@@ -155,7 +155,7 @@ class Renderer {
   }
 
   void shade_edge(const RenderedFrame& frame, const PixelBlock& block, const LensPoint& point,
-                  float* out) const noexcept {
+                  float* out) const {
     Visibility::Candidates ids{};
     const int count = visibility_.candidates(frame, block, ids);
     const float u = point.place.x(), v = point.place.y();
