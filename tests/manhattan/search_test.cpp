@@ -6,6 +6,7 @@
 
 #include "sslam/manhattan/search.hpp"
 #include "support/catch.hpp"
+#include "support/trials.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -13,8 +14,8 @@ using test::VoteScene;
 
 namespace {
 
-constexpr int kViews = 200;
-constexpr int kFewViews = 50;  // where every view is searched in vain
+constexpr int kViews = testing::trials(200, 30);
+constexpr int kFewViews = testing::trials(50, 10);  // where every view is searched in vain
 
 struct Score {
   int accepted = 0, right = 0, wrong = 0;

@@ -9,11 +9,12 @@
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/trials.hpp"
 
 namespace sslam {
 namespace {
 
-constexpr int kRelativePoseTrials = 40;
+constexpr int kRelativePoseTrials = testing::trials(40, 10);
 using Pose = RelativePose<double>;
 static_assert(Manifold<RelativePose<float>> && Manifold<RelativePose<double>>);
 
