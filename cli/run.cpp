@@ -114,9 +114,20 @@ void add_tracking_options(CLI::App& command, RunSettings& s) {
       "--no-final-pass", [&s] { s.final_pass = false; },
       "Leave out what follows the last frame: the whole map is adjusted, and every frame tracked again in "
       "it");
+  const auto tell_read_out = [&s](double seconds) {
+    s.set.push_back("final_pass.read_out=" + std::to_string(seconds));
+    s.set.push_back("final_pass.shutter.search=0");
+  };
+  command
+      .add_option_function<double>(
+          "--read-out", tell_read_out,
+          "From the first row of an image to the last, of a rolling shutter; 0: all rows at once; without "
+          "it, the map is asked for it after the last frame")
+      ->check(CLI::Range(0.0, 0.2))
+      ->type_name("SECONDS");
   put_in_group(command, "Tracking",
                {"--normals", "--preset", "--set", "--list-parameters", "--seed", "--map", "--live",
-                "--no-final-pass"});
+                "--no-final-pass", "--read-out"});
 }
 
 void add_output_options(CLI::App& command, RunSettings& s) {

@@ -38,6 +38,7 @@ struct RunOutcome {
   std::vector<std::string> views;        // frames as encode_frame_view gives them
   double wall_seconds = 0;               // of the whole run
   double final_pass_seconds = 0;         // of it, what followed the last frame
+  double read_out = 0;                   // seconds of a rolling shutter; 0: none is known
   int keyframes_not_made = 0;            // live: frames that mapping was too far behind for
   std::size_t frames_dropped = 0;        // of a stream: they came while the tracker was busy
   std::size_t stream_losses = 0;         // times that the stream broke and came back

@@ -240,6 +240,8 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
         outcome.apart.maps, outcome.apart.frames);
   if (outcome.calibration && outcome.calibration->last.verdict != CameraVerdict::kOpen)
     std::printf("camera           by the map: %s\n", camera_text(outcome.calibration->last.camera).c_str());
+  if (outcome.read_out > 0)
+    std::printf("shutter          rolling: %.0f ms from the first row to the last\n", 1e3 * outcome.read_out);
   print_scale(outcome, evaluation, metric);
   if (outcome.dense && !outcome.dense->empty())
     std::printf("dense            %zu planes from %zu keyframes in %.1f s: %s, %s\n",
@@ -306,6 +308,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
                   {"resumed_at", outcome.resumed_at},
                   {"keyframes", outcome.keyframes.size()},
                   {"keyframes_not_made", outcome.keyframes_not_made},
+                  {"read_out_s", outcome.read_out},
                   {"points", count_alive(outcome.map.points)},
                   {"lines", count_alive(outcome.map.lines)},
                   {"planes", count_alive(outcome.map.planes)},

@@ -38,6 +38,7 @@ void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, 
   outcome.colours = recorder.colours.of(outcome.map);
   outcome.world = system.world();
   outcome.apart = system.apart();
+  outcome.read_out = system.read_out();
   outcome.keyframes_not_made = system.keyframes_not_made();
   outcome.keyframes = keyframe_poses(system.map(), known_keyframes);
   outcome.trajectory = system.trajectory();

@@ -67,6 +67,17 @@ class BundleWindow {
     build(map, options);
   }
 
+  // The first `most` keyframes of the map and nothing around them, by their observations alone.
+  void gather_first(const Map<S>& map, std::size_t most) {
+    BundleWindowOptions<S> options;
+    options.max_held = 0;
+    options.planes = options.manhattan = false;
+    keyframes.clear();
+    for (const Keyframe<S>& kf : map.keyframes)
+      if (kf.alive() && keyframes.size() < most) keyframes.push_back(kf.id);
+    build(map, options);
+  }
+
   // Every keyframe moves.
   void gather_all(const Map<S>& map, const BundleWindowOptions<S>& options) {
     keyframes.clear();

@@ -44,6 +44,7 @@ class Engine {
   [[nodiscard]] virtual int world() const = 0;
   [[nodiscard]] virtual MapsApart apart() const = 0;
   [[nodiscard]] virtual int keyframes_not_made() const = 0;
+  [[nodiscard]] virtual double read_out() const = 0;    // seconds; 0: all rows at once, or not known
   [[nodiscard]] virtual float tracking_ms() const = 0;  // of the last frame, so far
   [[nodiscard]] virtual const std::array<float, kStageCount>& stage_ms() const = 0;
 

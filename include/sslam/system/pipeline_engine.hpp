@@ -47,6 +47,7 @@ class PipelineEngine final : public Engine {
     if constexpr (requires { pipeline_.upkeep.refused(); }) return pipeline_.upkeep.refused();
     return 0;
   }
+  [[nodiscard]] double read_out() const override { return pipeline_.final_pass.read_out(); }
 
   [[nodiscard]] float tracking_ms() const override {
     if constexpr (requires { pipeline_.timer.total(); }) return pipeline_.timer.total();

@@ -103,6 +103,9 @@ class BasicSystem {
   [[nodiscard]] int world() const { return engine_->world(); }
   [[nodiscard]] MapsApart apart() const { return engine_->apart(); }
   [[nodiscard]] int keyframes_not_made() const { return engine_->keyframes_not_made(); }
+  // Of a rolling shutter, as finish() was told it or has found it: seconds from the first row of an image to
+  // the last. 0: all rows are read at once, or nothing is known.
+  [[nodiscard]] double read_out() const { return engine_->read_out(); }
   [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }  // taken in so far
 
  private:

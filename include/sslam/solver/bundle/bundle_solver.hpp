@@ -35,6 +35,13 @@ class BundleSolver {
   // On failure the graph is left as it was.
   BundleSummary solve(BundleGraph<S>& graph);
 
+  // Half the sum of the robust squared residuals, in sigmas, of all that can be evaluated.
+  [[nodiscard]] double cost(const BundleGraph<S>& graph) {
+    state_.load(graph);
+    choose_edges(graph);
+    return static_cast<double>(cost_of(graph, state_)) / 2;
+  }
+
  private:
   struct Descent {
     BundleSolver& solver;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The final pass, after the last frame: the whole map is adjusted at once, then every frame is tracked again
 // in it. A frame keeps the errors of the young map that it was tracked in otherwise, and one that had no pose
-// may get one. Of a rolling shutter, whose read-out time is known, features are moved to the moment of the
-// middle row first, by the motion that the trajectory tells.
+// may get one. Of a rolling shutter, whose read-out time is told or found, features are moved to the moment
+// of the middle row, by the motion that the trajectory tells.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map_adjustment.hpp"
 #include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/worlds/read_out_search.hpp"
 #include "sslam/track/worlds/rolling_shutter.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
@@ -23,7 +25,7 @@ template <Scalar S>
 struct FinalPassOptions {
   std::size_t max_frames = 3000;  // that are kept for it, 100 kB each; those after them stay as they are
   int max_misses = 5;   // frames in a row without a pose, beyond which a sweep does not guess where it is
-  double read_out = 0;  // seconds from the first row of an image to the last; 0: all rows at once
+  double read_out = 0;  // seconds from the first row of an image to the last; 0: not told
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -32,7 +34,7 @@ struct FinalPassOptions {
     visit("max_misses", self.max_misses, Unit::kCount, 0, 1000,
           "frames in a row without a pose while those behind them get one");
     visit("read_out", self.read_out, Unit::kSeconds, 0, 0.2,
-          "from the first row of an image to the last, of a rolling shutter; 0: all rows at once");
+          "from the first row of an image to the last, of a rolling shutter; 0: not told");
   }
 };
 static_assert(Described<FinalPassOptions<double>>);
@@ -42,6 +44,7 @@ class FinalPass {
  public:
   FinalPassOptions<S> options;
   MapAdjustment<S, BundleSolver<S>> adjustment;
+  ReadOutSearch<S> read_out_search;
 
   FinalPass() {
     adjustment.solver.options.max_iterations = 20;
@@ -52,6 +55,7 @@ class FinalPass {
   static void parameters(Self& self, Visit&& visit) {
     visit_within("", self.options, visit);
     visit_stage("adjustment.", self.adjustment, visit);
+    visit_within("shutter.", self.read_out_search.options, visit);
   }
 
   // A frame has been tracked, or lost; its features are copied.
@@ -70,17 +74,21 @@ class FinalPass {
   // The map has its last keyframe. Poses go into the log; the frames are forgotten.
   template <class Fallback, class Refinement>
   void run(Map<S>& map, Fallback& fallback, Refinement& refinement, TrajectoryLog<S>& log) {
+    read_out_ = options.read_out;
     if (!map.empty() && !frames_.empty()) {
       log.sort();
-      const bool rolling = options.read_out > 0;
-      // Each round knows the motion better by which the next one straightens.
-      for (int round = 0; round < (rolling ? kRounds : 1); ++round) {
-        if (rolling) straighten_keyframes(map, log);
+      const auto track_all = [&] {
         adjustment.optimise_all(map);
         last_.point_landmarks.clear();
         last_.line_landmarks.clear();
         previous_.reset();
         for (std::size_t i = 0; i < frames_.size(); ++i) track(i, 1, map, fallback, refinement, log);
+      };
+      if (read_out_ == 0) track_all();
+      // Each round knows the motion better by which the next one straightens.
+      for (int round = 0; round < kRounds && look_for_motion(map, log); ++round) {
+        straighten_keyframes(read_out_, map, log);
+        track_all();
       }
       previous_.reset();
       for (std::size_t i = frames_.size(); i-- > 0;)
@@ -90,6 +98,9 @@ class FinalPass {
     motions_.clear();
     previous_.reset();
   }
+
+  // Seconds from the first row to the last by which the last run straightened, told or found; 0: it did not.
+  [[nodiscard]] double read_out() const noexcept { return read_out_; }
 
  private:
   static constexpr int kRounds = 3;  // a fourth gains a tenth at most
@@ -137,19 +148,23 @@ class FinalPass {
   void take_features(std::size_t i, const Map<S>& map) {
     if (!straightens(i)) return frame_.adopt(frames_[i]);
     straight_ = frames_[i];
-    straighten(i, map, map.keyframes[map.index(previous_->reference)], straight_);
+    straighten(read_out_, i, map, map.keyframes[map.index(previous_->reference)], straight_);
     frame_.adopt(straight_);
   }
 
   // The features of frame i, whose motion is known, into `out`; their depths are those that the keyframe
   // tells.
-  void straighten(std::size_t i, const Map<S>& map, const Keyframe<S>& keyframe, Frame<S>& out) const {
+  void straighten(double read_out, std::size_t i, const Map<S>& map, const Keyframe<S>& keyframe,
+                  Frame<S>& out) const {
     const InverseDepths<S> depths = inverse_depths(map, keyframe, frames_[i], keyframe.cam_from_world);
-    RollingShutter<S>{options.read_out}.straighten(frames_[i], *motions_[i], depths, out);
+    RollingShutter<S>{read_out}.straighten(frames_[i], *motions_[i], depths, out);
   }
 
-  // Finds out how the camera moves at each frame, and straightens the features of keyframes by it.
-  void straighten_keyframes(Map<S>& map, const TrajectoryLog<S>& log) {
+  // How the camera moves at each frame, and where no read-out is told, which one there is. False where there
+  // is nothing to straighten, or no more than in the last round.
+  bool look_for_motion(Map<S>& map, const TrajectoryLog<S>& log) {
+    const bool told = options.read_out > 0;
+    if (!told && !read_out_search.options.search) return false;
     std::vector<TimedPose<S>> poses(frames_.size());
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       poses[i].stamp = frames_[i].stamp;
@@ -157,13 +172,33 @@ class FinalPass {
         poses[i].cam_from_world = TrajectoryLog<S>::pose(map, *entry);
     }
     motions_ = frame_motions<S>(poses);
+    return told || look_for_read_out(map, log);
+  }
+
+  bool look_for_read_out(Map<S>& map, const TrajectoryLog<S>& log) {
+    constexpr double kSettled = 0.001;  // seconds
+    const double before = read_out_;
+    const auto found = read_out_search.find(map, before, adjustment.solver.options,
+                                            [&](double t) { straighten_keyframes(t, map, log); });
+    if (!found || (before == 0 && read_out_search.negligible(*found)) || !(found->seconds > 0) ||
+        std::abs(found->seconds - before) < kSettled) {
+      straighten_keyframes(before, map, log);
+      if (before == 0) motions_.clear();
+      return false;
+    }
+    read_out_ = found->seconds;
+    return true;
+  }
+
+  // The features of keyframes whose motion is known; those that were seen where there is no read-out.
+  void straighten_keyframes(double read_out, Map<S>& map, const TrajectoryLog<S>& log) {
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (!motions_[i]) continue;
       Keyframe<S>& keyframe = map.keyframes[map.index(map.surviving(log.find(frames_[i].index)->reference))];
       const Frame<S>& raw = frames_[i];
       const bool own = is_keyframe(keyframe, raw) && keyframe.frame.points.size() == raw.points.size() &&
                        keyframe.frame.lines.size() == raw.lines.size();
-      if (own) straighten(i, map, keyframe, keyframe.frame);
+      if (own) straighten(read_out, i, map, keyframe, keyframe.frame);
     }
   }
 
@@ -181,6 +216,7 @@ class FinalPass {
   std::vector<Frame<S>> frames_;                        // as they were seen, without their normals, in order
   std::vector<std::optional<FrameMotion<S>>> motions_;  // of a rolling shutter, one a frame
   Frame<S> straight_;
+  double read_out_ = 0;
   std::optional<Previous> previous_;
   TrackedFrame<S> frame_, last_, around_;  // of the last two the matches alone
   RecentLandmarks<S> recent_;
@@ -190,6 +226,7 @@ static_assert(FinalStage<FinalPass<double>, double>);
 // Poses and map stay as tracking and mapping left them.
 template <Scalar S>
 struct NoFinalPass {
+  [[nodiscard]] double read_out() const noexcept { return 0; }
   void keep(const Frame<S>&) noexcept {}
   template <class Fallback, class Refinement>
   void run(Map<S>&, Fallback&, Refinement&, TrajectoryLog<S>&) noexcept {}

@@ -27,6 +27,7 @@ struct RollingShutter {
   // by the row, and xi by the camera's motion.
   [[nodiscard]] Vec2<S> straightened(const Frame<S>& frame, const FrameMotion<S>& motion,
                                      const Vec2<S>& pixel, S inverse_depth) const noexcept {
+    if (read_out == 0) return pixel;
     const auto rows = static_cast<S>(frame.height);
     const Vec6<S> moved = motion.until(row_offset(static_cast<S>(read_out), pixel.y(), rows));
     const Vec3<S> ray = frame.pinhole.unproject(pixel) - inverse_depth * moved.template tail<3>();
