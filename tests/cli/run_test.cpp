@@ -30,6 +30,7 @@ TEST_CASE("run tracks a rendered room and writes every file") {
   const auto metrics = copy.metrics();
   REQUIRE(metrics["frames"] == kFrames);
   REQUIRE(metrics["share_tracked"].get<double>() >= 0.9);
+  REQUIRE(metrics["read_out_s"] == 0);  // a global shutter
   REQUIRE(metrics["settings"]["parameters"].contains("rotation.squareness"));
   REQUIRE(text_of(copy.out / "trajectory.txt").find("nan") == std::string::npos);
 }
@@ -187,10 +188,12 @@ TEST_CASE("run takes its options from a file and its parameters from the command
 
 TEST_CASE("run sets parameters of the front end") {
   const Copy copy;
-  const Outcome outcome = copy.run("--end 10 --set points.points=200 --set lines.max_lines=20");
+  const Outcome outcome =
+      copy.run("--end 10 --set points.points=200 --set lines.max_lines=20 --read-out 0.03");
   INFO(outcome.text);
   REQUIRE(fs::exists(copy.out / "frames.csv"));  // whether so few features start a map or not
   REQUIRE(copy.metrics()["settings"]["parameters"]["points.points"] == 200);
+  REQUIRE(copy.metrics()["read_out_s"] == 0.03);
   std::istringstream table(text_of(copy.out / "frames.csv"));
   std::string header, row;
   std::getline(table, header);
@@ -221,7 +224,7 @@ TEST_CASE("run goes on over a single bad frame and names it") {
   const Copy copy;
   const std::string bytes = text_of(copy.folder / "rgb/000030.jpg");
   write(copy.folder / "rgb/000030.jpg", bytes.substr(0, bytes.size() / 2));
-  const Outcome outcome = copy.run();
+  const Outcome outcome = copy.run("--end 40");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("000030.jpg: truncated image; frame skipped") != std::string::npos);
@@ -234,7 +237,7 @@ TEST_CASE("run tells many bad frames of one kind in one line, and decoders tell 
     write(copy.folder / name, bytes.substr(0, bytes.size() / 2));
   // A whole file whose pixels are damaged: libjpeg would complain.
   write(copy.folder / "rgb/000036.jpg", bytes.substr(0, bytes.size() / 2) + "\xff\xd9");
-  const Outcome outcome = copy.run();
+  const Outcome outcome = copy.run("--end 40");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("000030.jpg: truncated image; frame skipped (and 2 more like this)") !=
@@ -283,7 +286,7 @@ TEST_CASE("run goes on over an image of another size and names it") {
       0);
   fs::copy_file(other.path() / "small/rgb/000000.jpg", copy.folder / "rgb/000030.jpg",
                 fs::copy_options::overwrite_existing);
-  const Outcome outcome = copy.run();
+  const Outcome outcome = copy.run("--end 40");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("000030.jpg: has 64x48 pixels, and the camera 480x360; frame skipped") !=
@@ -298,7 +301,7 @@ TEST_CASE("run warns about depth of another shape and uses lines alone for that 
       0);
   fs::copy_file(other.path() / "small/depth/000000.png", copy.folder / "depth/000030.png",
                 fs::copy_options::overwrite_existing);
-  const Outcome outcome = copy.run("--normals depth");
+  const Outcome outcome = copy.run("--end 40 --normals depth");
   INFO(outcome.text);
   REQUIRE(outcome.code == 0);
   REQUIRE(outcome.text.find("000030.jpg: the shape of the normals' input does not fit") != std::string::npos);
@@ -307,7 +310,7 @@ TEST_CASE("run warns about depth of another shape and uses lines alone for that 
 TEST_CASE("run says when stored normals have another order of axes") {
   const Copy copy;
   write(copy.folder / "normals/encoding.txt", "r=-x g=-y b=-z\n");
-  const Outcome outcome = copy.run("--normals files:" + (copy.folder / "normals").string());
+  const Outcome outcome = copy.run("--end 40 --normals files:" + (copy.folder / "normals").string());
   INFO(outcome.text);
   REQUIRE(outcome.text.find("most normals point away from the camera") != std::string::npos);
 }

@@ -2,6 +2,7 @@
 #include "sslam/track/worlds/rolling_shutter.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "support/catch.hpp"
 #include "track/simulation.hpp"
@@ -47,14 +48,16 @@ std::vector<Frame<double>> rolled_frames(Simulation& simulation) {
   return frames;
 }
 
-double error_with(double read_out, Simulation& simulation, const std::vector<Frame<double>>& frames) {
+// Tracked with the final pass. No read-out: it is looked for.
+presets::Structure<double> tracked(const std::vector<Frame<double>>& frames, std::optional<double> read_out) {
   presets::Structure<double> pipeline;
   pipeline.keep_frames = true;
-  pipeline.final_pass.options.read_out = read_out;
+  pipeline.final_pass.options.read_out = read_out.value_or(0);
+  pipeline.final_pass.read_out_search.options.search = !read_out;
   for (Frame<double> frame : frames) (void)pipeline.track(frame);
   pipeline.finish();
   REQUIRE(pipeline.trajectory().entries().size() > kFrames / 2);
-  return position_error(pipeline, simulation);
+  return pipeline;
 }
 
 }  // namespace rolling_shutter_tests
@@ -114,10 +117,34 @@ TEST_CASE("A feature of a rolling shutter goes to where the middle row's moment 
   CHECK(after < 0.1 * before);
 }
 
-TEST_CASE("The final pass takes the read-out of a rolling shutter into account") {
+TEST_CASE("The final pass straightens what a rolling shutter saw, and finds its read-out by itself") {
   Simulation simulation(trembling_walk());
   const std::vector<Frame<double>> frames = rolled_frames(simulation);
-  const double straightened = error_with(kReadOut, simulation, frames);
-  CHECK(straightened < 0.5 * error_with(0, simulation, frames));
-  CHECK(straightened < 0.015);  // 0.0091 with a global shutter
+  const double bent = position_error(tracked(frames, 0), simulation);
+  const auto told = tracked(frames, kReadOut);
+  CHECK(told.final_pass.read_out() == kReadOut);
+  CHECK(position_error(told, simulation) < 0.5 * bent);
+  CHECK(position_error(told, simulation) < 0.015);  // 0.0091 with a global shutter
+  const auto found = tracked(frames, std::nullopt);
+  CHECK(found.final_pass.read_out() == Approx(kReadOut).epsilon(0.2));
+  CHECK(position_error(found, simulation) < 0.5 * bent);
+}
+
+TEST_CASE("A global shutter is known as one, and its poses stay as they are to the bit") {
+  Simulation simulation(trembling_walk());
+  std::vector<Frame<double>> frames;
+  for (const Keyframe<double>& keyframe : simulation.true_map(1).keyframes) {
+    frames.push_back(keyframe.frame);
+    frames.back().lines.clear();
+  }
+  const auto looked = tracked(frames, std::nullopt), told = tracked(frames, 0);
+  CHECK(looked.final_pass.read_out() == 0);
+  const auto &a = looked.trajectory().entries(), &b = told.trajectory().entries();
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto pose = TrajectoryLog<double>::pose(looked.map(), a[i]);
+    const auto same = TrajectoryLog<double>::pose(told.map(), b[i]);
+    CHECK(pose.translation == same.translation);
+    CHECK(pose.rotation.matrix() == same.rotation.matrix());
+  }
 }
