@@ -80,6 +80,27 @@ cv::Mat load_image(const fs::path& path, int flags, std::string& why) {
   return decode_image(path, bytes, header, flags, why);
 }
 
+namespace {
+
+// What makes pixels other than a camera's: nothing is done about it.
+void tell_of_pixels(io::Dataset& dataset, const VideoInfo& info) {
+  const std::string file = dataset.root.string();
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      ": its pixels are %.3g times as wide as high; `ffmpeg -i IN -vf scale=iw*sar:ih,setsar=1 OUT` "
+      "makes them square",
+      info.pixel_aspect);
+  constexpr double kSquare = 0.005;
+  if (std::abs(info.pixel_aspect - 1) > kSquare) dataset.warnings.push_back(file + text);
+  if (info.interlaced)
+    dataset.warnings.push_back(file +
+                               ": is interlaced, every other row is of another moment; `ffmpeg -i IN "
+                               "-vf yadif OUT` mends that");
+}
+
+}  // namespace
+
 void list_video_frames(io::Dataset& dataset, std::int64_t at_most) {
   const VideoInfo info = VideoReader(dataset.root).info();
   const VideoTimes found = read_video_times(dataset.root, at_most);
@@ -87,6 +108,7 @@ void list_video_frames(io::Dataset& dataset, std::int64_t at_most) {
     io::fill_video_frames(dataset, found.frames, info.frame_rate);
   else
     io::fill_video_frames(dataset, found.times);
+  tell_of_pixels(dataset, info);
   if (found.whole && found.frames < info.claimed)
     dataset.warnings.push_back(dataset.root.string() + ": claims " + std::to_string(info.claimed) +
                                " frames; " + std::to_string(found.frames) + " are there");

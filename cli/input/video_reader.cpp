@@ -105,6 +105,10 @@ VideoReader::VideoReader(const std::filesystem::path& file) : parts_(std::make_u
   p.info.size = {stream.codecpar->width, stream.codecpar->height};
   p.info.turn = turn_of(stream);
   p.info.claimed = stream.nb_frames;
+  const AVRational aspect = av_guess_sample_aspect_ratio(p.container.format.get(), &stream, nullptr);
+  if (aspect.num > 0 && aspect.den > 0) p.info.pixel_aspect = av_q2d(aspect);
+  const AVFieldOrder order = stream.codecpar->field_order;
+  p.info.interlaced = order != AV_FIELD_UNKNOWN && order != AV_FIELD_PROGRESSIVE;
   const AVRational rate = av_guess_frame_rate(p.container.format.get(), &stream, nullptr);
   if (rate.num > 0 && rate.den > 0) p.info.frame_rate = av_q2d(rate);
 }

@@ -17,6 +17,8 @@ struct VideoInfo {
   cv::Size size;              // of the stored pixels
   ImageTurn turn = kUpright;  // what players do with them
   double frame_rate = 0;      // frames a second, on average; 0: not known
+  double pixel_aspect = 1;    // width of a pixel over its height; 1 also where it is not said
+  bool interlaced = false;    // every other row is of another moment
   std::int64_t claimed = 0;   // frames that the container claims to hold; 0: it does not say
 };
 

@@ -98,6 +98,17 @@ TEST_CASE("a video's frames are those that are there, whatever the container cla
   }
 }
 
+TEST_CASE("a video says where its pixels are not square") {
+  const testing::ScratchFolder scratch;
+  constexpr std::size_t kAspect = 12;  // of a GIF: the byte and 15, over 64
+  std::string bytes = gif({10, 10});
+  CHECK(open_video(scratch.write("square.gif", bytes)).warnings.empty());
+  bytes[kAspect] = 113;
+  const io::Dataset dataset = open_video(scratch.write("wide.gif", bytes));
+  REQUIRE(dataset.warnings.size() == 1);
+  CHECK(contains(dataset.warnings[0], "wide.gif: its pixels are 2 times as wide as high"));
+}
+
 TEST_CASE("stamps are the times in the container, also where frames do not come evenly") {
   const testing::ScratchFolder scratch;
   const io::Dataset dataset = open_video(scratch.write("uneven.gif", gif({10, 30, 20, 40})));

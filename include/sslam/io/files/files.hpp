@@ -33,9 +33,9 @@ namespace sslam::io {
 }
 
 [[nodiscard]] inline bool is_video_name(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 16> kVideos{".mp4",  ".avi",  ".mkv", ".mov", ".webm", ".m4v",
+  constexpr std::array<std::string_view, 17> kVideos{".mp4",  ".avi",  ".mkv", ".mov", ".webm", ".m4v",
                                                      ".mpeg", ".mpg",  ".ogv", ".wmv", ".3gp",  ".ts",
-                                                     ".mts",  ".m2ts", ".gif", ".flv"};
+                                                     ".mts",  ".m2ts", ".gif", ".flv", ".apng"};
   return has_extension(path, kVideos);
 }
 
