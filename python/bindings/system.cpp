@@ -208,6 +208,8 @@ void bind_tracking(nb::module_& module) {
       .def("parameters", [](const Tracking& t) { return parameter_list(t.system().parameters()); })
       .def_prop_ro("camera", [](const Tracking& t) { return t.system().settings().camera; })
       .def_prop_ro("reads_depth", [](const Tracking& t) { return t.system().reads_depth(); })
+      .def_prop_ro("read_out",
+                   [](Tracking& t) { return t.read([](const System& s) { return s.read_out(); }); })
       .def_prop_ro("frames", [](Tracking& t) { return t.read([](const System& s) { return s.frames(); }); });
 }
 

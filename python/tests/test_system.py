@@ -29,6 +29,7 @@ class Tracking(unittest.TestCase):
             tracker = system(parameters={"keyframes.max_turn": 10})
             results = track_all(tracker)
             tracker.finish()
+            self.assertEqual(tracker.read_out, 0)  # a rendered global shutter
             tracker.save_trajectory(out / "trajectory.txt")
             tracker.save(out / "map.sslam")
             for name in ("trajectory.txt", "map.sslam"):

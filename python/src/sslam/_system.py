@@ -301,6 +301,12 @@ class System:
         return self._tracking.camera
 
     @property
+    def read_out(self) -> float:
+        """Of a rolling shutter, as finish() has found it: seconds from the first row of an image to the last. 0:
+        all rows are read at once, or nothing is known."""
+        return self._tracking.read_out
+
+    @property
     def frames(self) -> int:
         """Tracked so far."""
         return self._tracking.frames
