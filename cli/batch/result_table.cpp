@@ -178,9 +178,8 @@ ResultPage make_page(const Results& results) {
       "leaving out hard frames.";
   ResultTable& rates = page.tables[2];
   rates.caption =
-      "Rotation error (RMSE, degrees) after the same alignment, and frames a second; medians over the runs "
-      "that were "
-      "not lost.";
+      "Rotation error (RMSE, degrees) after the constant turn that suits it best, and frames a second; "
+      "medians over the runs that were not lost.";
   rates.text = rate_text;
   for (std::vector<TableCell>& row : rates.rows)
     for (TableCell& cell : row) cell.best = false;

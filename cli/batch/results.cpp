@@ -124,7 +124,7 @@ void judge(const ResultSequence& sequence, double min_tracked, Estimate& estimat
   std::string why;
   if (const auto found = evaluation_of(sequence.truth, estimate.trajectory, why)) {
     estimate.ate = found->position.rmse;
-    estimate.rotation = degrees(found->rotation.rmse);
+    estimate.rotation = degrees(found->rotation_own_offset.rmse);
   }
   if (!why.empty() && !estimate.failed) {
     estimate.failed = true;

@@ -25,7 +25,7 @@ struct Estimate {
   double seconds = 0;                     // wall clock; 0: not known
   double share = 0;                       // of the frames that have a pose
   std::optional<double> ate, common_ate;  // RMSE in metres; nothing where there is no ground truth
-  std::optional<double> rotation;         // RMSE in degrees after the same alignment
+  std::optional<double> rotation;         // RMSE in degrees after the best constant turn
   std::optional<double> frame_rate;       // frames a second of a run of ours
   std::filesystem::path report;           // below the folder of the results; empty: it has none
   std::string frames;                     // file of the stamps that it could have tracked; empty: not known
