@@ -98,15 +98,20 @@ TEST_CASE("a video's frames are those that are there, whatever the container cla
   }
 }
 
-TEST_CASE("a video says where its pixels are not square") {
+TEST_CASE("a video says where its pixels are not square, and its rows of two moments") {
   const testing::ScratchFolder scratch;
-  constexpr std::size_t kAspect = 12;  // of a GIF: the byte and 15, over 64
-  std::string bytes = gif({10, 10});
-  CHECK(open_video(scratch.write("square.gif", bytes)).warnings.empty());
-  bytes[kAspect] = 113;
-  const io::Dataset dataset = open_video(scratch.write("wide.gif", bytes));
-  REQUIRE(dataset.warnings.size() == 1);
-  CHECK(contains(dataset.warnings[0], "wide.gif: its pixels are 2 times as wide as high"));
+  // YUV4MPEG2, which says both in its first line, under the name of another container.
+  const auto video = [&](const std::string& what) {
+    std::string bytes = "YUV4MPEG2 W16 H16 F10:1 " + what + " C420jpeg\n";
+    for (int i = 0; i < 3; ++i) bytes += "FRAME\n" + std::string(16 * 16 * 3 / 2, '\x80');
+    return open_video(scratch.write("film.avi", bytes));
+  };
+  CHECK(video("Ip A1:1").warnings.empty());
+  const io::Dataset dataset = video("It A2:1");
+  REQUIRE(dataset.frames.size() == 3);
+  REQUIRE(dataset.warnings.size() == 2);
+  CHECK(contains(dataset.warnings[0], "film.avi: its pixels are 2 times as wide as high"));
+  CHECK(contains(dataset.warnings[1], "film.avi: is interlaced"));
 }
 
 TEST_CASE("stamps are the times in the container, also where frames do not come evenly") {
