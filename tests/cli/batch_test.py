@@ -114,7 +114,7 @@ class Tables(BatchCase):
             (row,) = [run for run in self.runs(self.out) if run["run"] == name]
             self.assertAlmostEqual(float(row["ate_rmse_m"]), wanted["ate_m"]["rmse"], places=5)
             self.assertAlmostEqual(float(row["share_tracked"]), wanted["share_tracked"], places=5)
-            self.assertAlmostEqual(float(row["rotation_rmse_deg"]), wanted["rotation_deg"]["rmse"], places=5)
+            self.assertAlmostEqual(float(row["rotation_rmse_deg"]), wanted["rotation_own_offset_deg"]["rmse"], places=5)
         metrics = json.loads((self.out / "runs/room_a/structure-none/seed-1/metrics.json").read_text())
         (row,) = [run for run in self.runs(self.out) if run["run"] == "room_a, structure, none, seed 1"]
         self.assertAlmostEqual(float(row["frames_per_second"]), metrics["times"]["frames_per_second"], places=5)
