@@ -159,12 +159,12 @@ std::string rate_text(const TableCell& cell, const std::string&) {
 ResultPage make_page(const Results& results) {
   ResultPage page;
   page.title = results.name;
-  page.tables = {make_table(results, false), make_table(results, true), make_table(results, false)};
+  const ResultTable all = make_table(results, false);
+  page.tables = {all, make_table(results, true), all};
   page.tables[0].file = "table";
   page.tables[0].caption =
       "Translation RMSE (m) after Sim(3) alignment, median over the runs; in brackets the share of frames "
-      "with a "
-      "pose. Bold: the best of a sequence. \u00d7: lost, with less than " +
+      "with a pose. Bold: the best of a sequence. \u00d7: lost, with less than " +
       percent(results.min_tracked) + " of the frames tracked.";
   const bool ensemble = std::any_of(results.sequences.begin(), results.sequences.end(),
                                     [](const ResultSequence& s) { return s.starts.size() > 1; });

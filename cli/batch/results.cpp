@@ -7,6 +7,7 @@
 
 #include "cli/batch/run_mark.hpp"
 #include "cli/results/json_file.hpp"
+#include "cli/results/run_folder.hpp"
 #include "sslam/core/types.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/files/text.hpp"
@@ -35,8 +36,6 @@ void take_trajectory(const fs::path& file, Estimate& estimate) {
     estimate.reason = error.what();
   }
 }
-
-constexpr const char* kReportFile = "report.html";
 
 std::optional<double> frame_rate_of(const fs::path& run_folder) {
   try {
