@@ -160,8 +160,8 @@ class FinalPass {
     RollingShutter<S>{read_out}.straighten(frames_[i], *motions_[i], depths, out);
   }
 
-  // How the camera moves at each frame, and where no read-out is told, which one there is. False where there
-  // is nothing to straighten, or no more than in the last round.
+  // How the camera moves at each frame; and the read-out, unless it was told. False where nothing is left to
+  // straighten.
   bool look_for_motion(Map<S>& map, const TrajectoryLog<S>& log) {
     const bool told = options.read_out > 0;
     if (!told && !read_out_search.options.search) return false;
@@ -190,7 +190,7 @@ class FinalPass {
     return true;
   }
 
-  // The features of keyframes whose motion is known; those that were seen where there is no read-out.
+  // The features of keyframes whose motion is known, from what was seen. No read-out: just that.
   void straighten_keyframes(double read_out, Map<S>& map, const TrajectoryLog<S>& log) {
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (!motions_[i]) continue;

@@ -20,9 +20,9 @@ struct ReadOutSearchOptions {
   bool search = true;              // false: the read-out stays as it is told
   std::size_t max_keyframes = 60;  // the first ones of the map: more tell little that is new
   double first_step = 0.01;        // seconds: to the second time that is tried
-  double longest = 0.1;            // seconds: no camera is slower
-  double shortest = 0.003;         // seconds: what is less bends nothing that can be seen
-  double min_gain = 0.01;          // of the cost, below which all rows are taken to be read at once
+  double longest = 0.1;            // seconds: what is longer is not believed
+  double shortest = 0.003;         // seconds, below which all rows are taken to be read at once
+  double min_gain = 0.01;          // of the cost: the same
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -74,7 +74,7 @@ class ReadOutSearch {
     return ReadOutEstimate{last.seconds, 1 - last.cost / first.cost};
   }
 
-  // All rows are read at once, or nearly so, where the search that began at 0 has found this.
+  // Of a search that began at 0: all rows are read at once, or nearly so.
   [[nodiscard]] bool negligible(const ReadOutEstimate& found) const noexcept {
     return found.seconds < options.shortest || found.gain < options.min_gain;
   }
