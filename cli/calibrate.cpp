@@ -14,6 +14,7 @@
 #include "cli/calibrate/coverage.hpp"
 #include "cli/commands.hpp"
 #include "cli/input/camera_yaml.hpp"
+#include "cli/input/image_file.hpp"
 #include "cli/input/open_images.hpp"
 #include "cli/input/topic_options.hpp"
 #include "cli/input/video_reader.hpp"

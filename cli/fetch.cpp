@@ -11,7 +11,7 @@
 #include "cli/fetch/download.hpp"
 #include "cli/fetch/public_sequences.hpp"
 #include "cli/fetch/unpack.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
+#include "cli/input/open_images.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
@@ -49,7 +49,7 @@ void list_sequences() {
 
 // Throws Error when it is no dataset with ground truth.
 io::Dataset open_complete(const fs::path& folder) {
-  io::Dataset dataset = io::open_dataset(folder);
+  io::Dataset dataset = dataset_at(folder);
   if (dataset.ground_truth.empty()) throw Error(folder.string() + ": has no ground truth");
   return dataset;
 }
@@ -89,7 +89,7 @@ void fetch(const FetchSettings& settings, const PublicSequence& sequence) {
   }
   const io::Dataset dataset = open_complete(folder);
   std::printf("%-11s %s: %zu frames, %s, with ground truth (%s)\n", std::string(sequence.name).c_str(),
-              folder.c_str(), dataset.frames.size(), std::string(name(dataset.layout)).c_str(),
+              folder.c_str(), dataset.frames.size(), std::string(layout_name(dataset.layout)).c_str(),
               std::string(sequence.terms).c_str());
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "cli/shell/progress.hpp"
-#include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
 namespace CLI {

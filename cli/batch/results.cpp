@@ -8,10 +8,10 @@
 #include "cli/batch/run_mark.hpp"
 #include "cli/results/json_file.hpp"
 #include "cli/results/run_folder.hpp"
+#include "cli/results/truth_source.hpp"
 #include "sslam/core/types.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/files/text.hpp"
-#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -30,7 +30,7 @@ std::vector<double> read_stamps(const fs::path& file) {
 void take_trajectory(const fs::path& file, Estimate& estimate) {
   io::Warnings ignored;
   try {
-    estimate.trajectory = io::read_trajectory(file, ignored);
+    estimate.trajectory = load_estimate(file, ignored).trajectory;
   } catch (const Error& error) {
     estimate.failed = estimate.broken = true;
     estimate.reason = error.what();
@@ -182,7 +182,7 @@ ResultSequence read_sequence(const fs::path& folder, const Plan& plan, const std
   io::Warnings ignored;
   std::error_code none;
   const fs::path truth = part / truth_file_of(name);
-  if (fs::exists(truth, none)) sequence.truth = io::read_trajectory(truth, ignored);
+  if (fs::exists(truth, none)) sequence.truth = load_estimate(truth, ignored).trajectory;
   return sequence;
 }
 

@@ -10,7 +10,6 @@
 #include "cli/run/metric_scale.hpp"
 #include "cli/run/run_check.hpp"
 #include "cli/shell/messages.hpp"
-#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -119,7 +118,7 @@ class SuiteCheck {
       for (const auto& [sequence, files] : reference.trajectories) {
         for (const std::filesystem::path& file : files) {
           io::Warnings warnings;
-          (void)io::read_trajectory(file, warnings);
+          (void)load_estimate(file, warnings);
           print_warnings(warnings);
         }
       }

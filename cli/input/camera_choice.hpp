@@ -4,22 +4,14 @@
 // that is told.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "cli/input/camera_fit.hpp"
-#include "cli/input/exif_focal.hpp"
-#include "cli/shell/messages.hpp"
-#include "sslam/core/error.hpp"
-#include "sslam/io/datasets/known_cameras.hpp"
-#include "sslam/opencv/camera/camera_file.hpp"
-#include "sslam/opencv/camera/wide_view.hpp"
+#include "sslam/geometry/camera.hpp"
+#include "sslam/io/datasets/dataset.hpp"
+#include "sslam/opencv/camera/wide_lens.hpp"
 
 namespace sslam::cli {
 
@@ -43,170 +35,29 @@ struct CameraChoice {
   double view_fov = 0;             // of that view, degrees across
 };
 
-inline void print_notes(const CameraChoice& choice) {
-  for (const std::string& note : choice.notes) print_note(note);
-  print_warnings(choice.warnings);
-}
-
-[[nodiscard]] inline CameraChoice camera_from_file(const std::filesystem::path& path) {
-  const CameraFile file = read_wide_camera_file(path);
-  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
-  choice.wide = file.wide;
-  return choice;
-}
-
-[[nodiscard]] inline CameraChoice camera_from_text(const io::Dataset& dataset) {
-  const std::string& source = dataset.camera_source;
-  const CameraFile file = parse_camera_text(dataset.camera_text, source);
-  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, source, file.notes, {}, false};
-  choice.notes.insert(choice.notes.begin(), "the camera is that of " + source);
-  return choice;
-}
-
-[[nodiscard]] inline CameraChoice camera_from_known(const io::KnownCamera& known) {
-  return {known.camera, known.depth_factor, known.frame_rate, "built in: " + std::string(known.name), {}, {},
-          false};
-}
-
-// Names that camera files have where programs put them beside the images.
-inline constexpr std::array<std::string_view, 9> kOwnCameraFiles{
-    "camera.yaml",      "camera.yml",  "camera.json", "camera.txt",     "camera_info.yaml",
-    "cam0/sensor.yaml", "sensor.yaml", "cameras.txt", "transforms.json"};
-
-// The camera file that lies in the dataset, or beside the video, else the one of its layout; empty: none.
-[[nodiscard]] inline std::filesystem::path own_camera_file(const io::Dataset& dataset) {
-  if (dataset.layout == io::Layout::kStream) return {};  // lies nowhere
-  std::error_code ignored;
-  const bool folder = std::filesystem::is_directory(dataset.root, ignored);
-  const std::filesystem::path place = folder ? dataset.root : dataset.root.parent_path();
-  for (const std::string_view name : kOwnCameraFiles)
-    if (std::filesystem::exists(place / name, ignored)) return place / name;
-  return dataset.camera_file;
-}
+// Of a camera file. Throws Error when it is wrong.
+[[nodiscard]] CameraChoice camera_from_file(const std::filesystem::path& path);
 
 // A depth factor that the chosen file leaves out is taken from the published values of the dataset, where
 // there are any. Nothing when nothing is known about the camera. Throws when the file is wrong.
-[[nodiscard]] inline std::optional<CameraChoice> find_camera(const std::string& wanted,
-                                                             const io::Dataset& dataset) {
-  const auto known = io::known_camera_for(dataset);
-  const auto complete = [&](CameraChoice choice) {
-    if (choice.depth_factor == 0) choice.depth_factor = dataset.depth_factor;
-    if (choice.depth_factor == 0 && known) choice.depth_factor = known->depth_factor;
-    return choice;
-  };
-  if (!wanted.empty()) {
-    std::error_code ignored;
-    const auto named = io::find_known_camera(wanted);
-    if (named && !std::filesystem::exists(wanted, ignored)) return camera_from_known(*named);
-    return complete(camera_from_file(wanted));
-  }
-  if (const std::filesystem::path own = own_camera_file(dataset); !own.empty()) {
-    CameraChoice choice = complete(camera_from_file(own));
-    if (own.filename() != "camera.yaml")
-      choice.notes.insert(choice.notes.begin(), "the camera is that of " + own.string());
-    return choice;
-  }
-  if (!dataset.camera_text.empty()) return complete(camera_from_text(dataset));
-  if (known) return camera_from_known(*known);
-  return std::nullopt;
-}
+[[nodiscard]] std::optional<CameraChoice> find_camera(const std::string& wanted, const io::Dataset& dataset);
 
-// Standard deviations of a focal length that nobody has calibrated, as a part of it: said by a lens's label,
-// or by nothing.
-inline constexpr double kRoughFocal = 0.1, kUnknownFocal = 0.4;
+// Standard deviation of a focal length that nobody has said, as a part of it.
+inline constexpr double kUnknownFocal = 0.4;
 
 // Square pixels, the principal point in the middle, no distortion.
-[[nodiscard]] inline CameraChoice plain_camera(double focal, int width, int height, const std::string& source,
-                                               double focal_sigma) {
-  CameraChoice choice;
-  choice.focal_sigma = focal_sigma;
-  choice.camera = {{focal, focal, 0.5 * (width - 1), 0.5 * (height - 1)}, {}, width, height};
-  choice.source = source;
-  return choice;
-}
-
-[[nodiscard]] inline double focal_of_view(double degrees_across, int pixels) {
-  return 0.5 * pixels / std::tan(0.5 * radians(degrees_across));
-}
-
-// For a camera that nobody has calibrated. Phones and webcams see 55 to 70 degrees along their longer side.
-[[nodiscard]] inline CameraChoice assumed_camera(const io::Dataset& dataset, int width, int height) {
-  char text[320];
-  const double written = dataset.frames.empty() ? 0 : exif_focal(dataset.frames.front().image, width, height);
-  if (written > 0) {
-    CameraChoice choice = plain_camera(written, width, height, "the images' Exif", kRoughFocal);
-    std::snprintf(
-        text, sizeof text,
-        "the camera is not calibrated: the images' Exif gives a focal length of %.0f pixels; distortion is "
-        "not known (--camera FILE gives both)",
-        written);
-    choice.notes.emplace_back(text);
-    return choice;
-  }
-  constexpr double kView = 60;  // degrees
-  const double focal = focal_of_view(kView, std::max(width, height));
-  CameraChoice choice = plain_camera(focal, width, height, "assumed: 60 degrees", kUnknownFocal);
-  choice.assumed = true;
-  std::snprintf(
-      text, sizeof text,
-      "the camera is not known: ASSUMING a field of view of %.0f degrees along the longer side (a focal "
-      "length of %.0f pixels) and no distortion; --camera FILE, --focal or --fov say better, sslam calibrate "
-      "makes a camera file",
-      kView, focal);
-  choice.warnings.emplace_back(text);
-  return choice;
-}
+[[nodiscard]] CameraChoice plain_camera(double focal, int width, int height, const std::string& source,
+                                        double focal_sigma);
 
 // What --focal or --fov make of images of this size; nothing where neither is given.
-[[nodiscard]] inline std::optional<CameraChoice> wished_camera(const CameraWish& wish, int width,
-                                                               int height) {
-  if (wish.focal > 0) return plain_camera(wish.focal, width, height, "--focal", kRoughFocal);
-  if (wish.fov > 0) return plain_camera(focal_of_view(wish.fov, width), width, height, "--fov", kRoughFocal);
-  return std::nullopt;
-}
+[[nodiscard]] std::optional<CameraChoice> wished_camera(const CameraWish& wish, int width, int height);
 
 // A wide lens is looked through a pinhole's view of its images: brings `camera` to it. Throws Error when the
 // lens sees less than is asked for.
-inline void take_view(CameraChoice& choice, double wanted) {
-  if (!choice.wide) {
-    if (wanted > 0)
-      choice.notes.push_back("--undistort-fov is for wide lenses, and " + choice.source +
-                             " has none: left out");
-    return;
-  }
-  WideLens& lens = *choice.wide;
-  lens.pinhole = choice.camera.pinhole;
-  lens.width = choice.camera.width;
-  lens.height = choice.camera.height;
-  const double most = WideView::field_of(lens);
-  constexpr double kLeast = 40;  // degrees
-  char text[240];
-  if (most < kLeast || wanted > most) {
-    std::snprintf(text, sizeof text, ": this lens sees %.0f degrees across in images of %dx%d; %s", most,
-                  lens.width, lens.height,
-                  most < kLeast ? "are its coefficients those of another model or resolution?"
-                                : "--undistort-fov asks for more");
-    throw Error(choice.source + text);
-  }
-  choice.view_fov = wanted > 0 ? wanted : std::min(WideView::kUsual, most);
-  choice.camera = view_camera(lens, choice.view_fov);
-  std::snprintf(
-      text, sizeof text,
-      ": the lens sees %.0f degrees across; its images are undistorted to a pinhole's view of %.0f degrees "
-      "(--undistort-fov), and what lies beyond is not used",
-      most, choice.view_fov);
-  choice.notes.push_back(choice.source + text);
-}
+void take_view(CameraChoice& choice, double wanted);
 
 // For images of this size. Throws Error when the camera cannot be theirs.
-[[nodiscard]] inline CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, int width,
-                                                int height) {
-  std::optional<CameraChoice> choice = wished_camera(wish, width, height);
-  if (!choice) choice = find_camera(wish.file, dataset);
-  if (!choice) choice = assumed_camera(dataset, width, height);
-  fit_camera(choice->camera, width, height, choice->source, choice->notes, choice->warnings);
-  take_view(*choice, wish.undistort_fov);
-  return *choice;
-}
+[[nodiscard]] CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, int width,
+                                         int height);
 
 }  // namespace sslam::cli

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "cli/input/camera_choice.hpp"
+#include "cli/input/camera_fit.hpp"
 #include "cli/input/size_text.hpp"
 #include "cli/shell/messages.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::cli {
 
@@ -45,7 +47,8 @@ class ImageCamera {
     fit_camera(known_->camera, width, height, known_->source, known_->notes, known_->warnings);
     take_view(*known_, wish_.undistort_fov);
     if (known_->wide) view_.emplace(*known_->wide, known_->view_fov);
-    print_notes(*known_);
+    print_notes(known_->notes);
+    print_warnings(known_->warnings);
   }
 
   [[nodiscard]] Camera<double> assumed(int width, int height) const {

@@ -1,47 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images for commands that take them one by one: all that `sslam run` takes, or a single image.
+// Datasets and images as commands take them. The readers of io are compiled here, and nowhere else in the
+// program.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
-#include "cli/input/bag_reader.hpp"
-#include "cli/input/image_file.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 
-[[nodiscard]] inline std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-}
+// Where a file lies; "." where its name has no folder.
+[[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& file);
 
-// As io::open_dataset, with the frames of videos and bags, too: of a video `at_most` of them, if that is not
-// negative. Throws Error, also where topics are wanted and this is no bag.
-[[nodiscard]] inline io::Dataset open_frames(const std::filesystem::path& path,
-                                             const io::OpenOptions& options = {},
-                                             const io::BagTopics& topics = {}, std::int64_t at_most = -1) {
-  io::Dataset dataset = io::open_dataset(path, options);
-  const bool bag = dataset.layout == io::Layout::kBag;
-  if (!bag && !(topics.images.empty() && topics.depth.empty()))
-    throw Error(path.string() + ": is no bag, so it has no topics; leave --topic and --depth-topic out");
-  if (bag) list_bag_frames(dataset, topics);
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, at_most);
-  return dataset;
-}
+// io::open_dataset: what lies there, without the frames of videos and bags. Throws Error.
+[[nodiscard]] io::Dataset dataset_at(const std::filesystem::path& path);
 
-// Throws Error when there is nothing of this kind.
-[[nodiscard]] inline io::Dataset open_images(const std::filesystem::path& path,
-                                             const io::BagTopics& topics = {}) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) {
-    if (io::is_image_name(path))
-      return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
-    if (!io::is_video_name(path) && !io::is_bag_name(path))
-      throw Error(
-          path.string() +
-          ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");
-  }
-  return open_frames(path, {}, topics);
-}
+// As in "TUM RGB-D".
+[[nodiscard]] std::string_view layout_name(io::Layout layout);
+
+// With the frames of videos and bags, too: of a video `at_most` of them, if that is not negative. Throws
+// Error, also where topics are wanted and this is no bag.
+[[nodiscard]] io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions& options = {},
+                                      const io::BagTopics& topics = {}, std::int64_t at_most = -1);
+
+// All that open_frames takes, or a single image. Throws Error when there is nothing of this kind.
+[[nodiscard]] io::Dataset open_images(const std::filesystem::path& path, const io::BagTopics& topics = {});
 
 }  // namespace sslam::cli

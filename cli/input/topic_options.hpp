@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "sslam/io/datasets/bag_files.hpp"
+#include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
 

@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sslam/io/datasets/open_dataset.hpp"
+#include "cli/input/open_images.hpp"
+#include "sslam/io/datasets/name_stamps.hpp"
 #include "sslam/io/files/csv_reader.hpp"
 #include "sslam/io/trajectories/colmap_images.hpp"
 
@@ -61,7 +62,7 @@ using NameClock = std::map<std::string, double>;  // stamps by the images' file 
         if (const auto value = io::parse_number<double>(frames.cell(row, stamp)))
           clock[std::string(frames.cell(row, image))] = *value;
     } else if (whole || path.filename() == "groundtruth.txt") {
-      for (const io::FrameEntry& frame : io::open_dataset(folder.empty() ? "." : folder).frames)
+      for (const io::FrameEntry& frame : dataset_at(folder.empty() ? "." : folder).frames)
         clock[file_name_of(frame.image)] = frame.stamp;
     }
   } catch (const Error&) {  // no dataset

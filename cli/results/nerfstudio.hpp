@@ -11,9 +11,9 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/input/open_images.hpp"
 #include "cli/results/keyframe_images.hpp"
 #include "cli/results/run_folder.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/maps/map_writer.hpp"
 
@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 inline std::map<std::string, fs::path> image_files(const std::string& dataset) {
   std::map<std::string, fs::path> files;
   try {
-    const io::Dataset found = io::open_dataset(dataset);
+    const io::Dataset found = dataset_at(dataset);
     if (found.frames.empty()) return files;
     for (const io::FrameEntry& frame : found.frames)
       files[fs::path(frame.image).filename().string()] = frame.image;

@@ -6,10 +6,10 @@
 #include "cli/results/json_file.hpp"
 #include "cli/results/result_set.hpp"
 #include "cli/results/scale_record.hpp"
+#include "cli/results/truth_source.hpp"
 #include "cli/results/view_file.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/maps/map_file.hpp"
-#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -84,7 +84,7 @@ class Reader {
   }
 
   void take_poses(const char* name, io::Trajectory& poses) {
-    take(name, [&](const fs::path& path) { poses = io::read_trajectory(path, run_.problems); });
+    take(name, [&](const fs::path& path) { poses = load_estimate(path, run_.problems).trajectory; });
   }
 
   fs::path folder_;

@@ -6,7 +6,10 @@
 
 #include "cli/input/open_images.hpp"
 #include "cli/results/run_folder.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/datasets/icl_nuim.hpp"
+#include "sslam/io/datasets/tum.hpp"
+#include "sslam/io/files/files.hpp"
+#include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -35,7 +38,7 @@ std::optional<io::Dataset> dataset_around(const std::filesystem::path& file) {
   if (file.filename() != "groundtruth.txt" && file.extension() != ".freiburg") return std::nullopt;
   if (!io::is_tum(folder) && !io::has_numbered_images(folder)) return std::nullopt;
   try {
-    return io::open_dataset(folder);
+    return dataset_at(folder);
   } catch (const Error&) {
     return std::nullopt;  // a copy without its images still has a ground truth
   }

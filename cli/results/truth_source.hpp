@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
-#include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 
 namespace sslam::cli {

@@ -11,7 +11,6 @@
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/stream/stream_name.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/system/parameters.hpp"
 

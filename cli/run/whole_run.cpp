@@ -92,7 +92,8 @@ void WholeRun::open() {
   goes_on_ = !settings_.map.empty();
   if (goes_on_ && !settings_.resumed) known_ = load_run_map(settings_.map);
   open_images();
-  print_notes(camera_);
+  print_notes(camera_.notes);
+  print_warnings(camera_.warnings);
   check_normals(settings_, dataset_, camera_.depth_factor);
   check_scale(scale_, dataset_, camera_.depth_factor);
   check_wide(settings_, camera_);

@@ -71,6 +71,10 @@ void print_note(const std::string& text) {
   print_message("note", text);
 }
 
+void print_notes(std::span<const std::string> notes) {
+  for (const std::string& note : notes) print_note(note);
+}
+
 void print_json(const nlohmann::ordered_json& object) {
   // File names need not be UTF-8.
   const std::string line = object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

@@ -26,6 +26,7 @@ void set_message_form(MessageForm form);
 void print_error(const std::string& text);
 void print_warning(const std::string& text);
 void print_note(const std::string& text);
+void print_notes(std::span<const std::string> notes);
 // A line of its own, whatever the form of messages.
 void print_json(const nlohmann::ordered_json& object);
 

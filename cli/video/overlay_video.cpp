@@ -7,7 +7,6 @@
 
 #include "cli/video/frame_overlay.hpp"
 #include "sslam/core/error.hpp"
-#include "sslam/io/datasets/open_dataset.hpp"
 #include "sslam/io/evaluation/statistics.hpp"
 
 namespace sslam::cli {

@@ -10,6 +10,8 @@
 #include "bindings/bindings.hpp"
 #include "bindings/images.hpp"
 #include "cli/input/camera_choice.hpp"
+#include "cli/input/camera_fit.hpp"
+#include "cli/input/size_text.hpp"
 
 namespace sslam::python {
 namespace {

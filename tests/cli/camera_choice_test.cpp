@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/input/camera_choice.hpp"
+#include "cli/input/exif_focal.hpp"
 
 #include <cmath>
 #include <filesystem>

@@ -10,6 +10,7 @@
 #include "sslam/core/random.hpp"
 #include "sslam/core/status.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 
@@ -102,7 +103,7 @@ TEST_CASE("only ok is usable and every status has a name of its own") {
   CHECK(names.count("unknown") == 0);
 }
 
-TEMPLATE_TEST_CASE("degrees and radians", "", float, double) {
+TEMPLATE_TEST_CASE("degrees and radians", "", SSLAM_TEST_SCALARS) {
   CHECK(std::abs(radians(TestType(180)) - std::numbers::pi_v<TestType>) < TestType(1e-6));
   CHECK(std::abs(degrees(radians(TestType(33))) - 33) < TestType(1e-5));
 }

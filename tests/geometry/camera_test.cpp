@@ -8,6 +8,7 @@
 #include "sslam/testing/jacobian_mutants.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -27,7 +28,7 @@ std::vector<RadTan<S>> lenses() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("pinhole projects and comes back", "", float, double) {
+TEMPLATE_TEST_CASE("pinhole projects and comes back", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Pinhole<S> k{500, 510, 320, 240};
   CHECK(k.project({0, 0, 2}) == Vec2<S>(320, 240));
@@ -61,7 +62,7 @@ TEST_CASE("pinhole Jacobian entry by entry") {
   CHECK(killed > 400);
 }
 
-TEMPLATE_TEST_CASE("distortion is undone all over a wide image", "", float, double) {
+TEMPLATE_TEST_CASE("distortion is undone all over a wide image", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const S tolerance = std::is_same_v<S, float> ? S(2e-5) : S(1e-10);
   for (const RadTan<S>& lens : lenses<S>()) {
@@ -105,7 +106,7 @@ TEST_CASE("radial and tangential terms mean what OpenCV means by them") {
   CHECK(std::abs(d.y() - (y * radial + 0.003 * (r2 + 2 * y * y) - 2 * 0.002 * x * y)) < 1e-15);
 }
 
-TEMPLATE_TEST_CASE("a point that the lens cannot have seen is refused", "", float, double) {
+TEMPLATE_TEST_CASE("a point that the lens cannot have seen is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const RadTan<S> barrel{S(-0.3), 0, 0, 0, 0};  // its image ends at a radius of 0.70
   Vec2<S> m;
@@ -116,7 +117,7 @@ TEMPLATE_TEST_CASE("a point that the lens cannot have seen is refused", "", floa
   CHECK_FALSE(barrel.undistort({std::numeric_limits<S>::quiet_NaN(), 0}, m));
 }
 
-TEMPLATE_TEST_CASE("pixels of a camera with a lens", "", float, double) {
+TEMPLATE_TEST_CASE("pixels of a camera with a lens", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Camera<S> camera{{S(517.306), S(516.469), S(318.643), S(255.314)}, lenses<S>()[1], 640, 480};
   for (S u = 0; u < 640; u += 53) {

@@ -8,6 +8,7 @@
 #include "sslam/testing/group_laws.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -27,8 +28,7 @@ S rounding(double factor) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("transform groups keep their laws", "", SO3<float>, SO3<double>, SE3<float>, SE3<double>,
-                   Sim3<float>, Sim3<double>) {
+TEMPLATE_TEST_CASE("transform groups keep their laws", "", SSLAM_TEST_TYPES(SO3, SE3, Sim3)) {
   using S = ScalarOf<TestType>;
   Random random(1);
   for (const S angle : angles<S>()) {
@@ -49,8 +49,7 @@ TEMPLATE_TEST_CASE("transform groups keep their laws", "", SO3<float>, SO3<doubl
   }
 }
 
-TEMPLATE_TEST_CASE("logarithm undoes exponential", "", SO3<float>, SO3<double>, SE3<float>, SE3<double>,
-                   Sim3<float>, Sim3<double>) {
+TEMPLATE_TEST_CASE("logarithm undoes exponential", "", SSLAM_TEST_TYPES(SO3, SE3, Sim3)) {
   using S = ScalarOf<TestType>;
   Random random(2);
   for (const S angle : angles<S>()) {
@@ -85,7 +84,7 @@ TEMPLATE_TEST_CASE("exponential is the flow of its own derivative", "", SO3<doub
   }
 }
 
-TEMPLATE_TEST_CASE("half a turn has a logarithm of length pi", "", float, double) {
+TEMPLATE_TEST_CASE("half a turn has a logarithm of length pi", "", SSLAM_TEST_SCALARS) {
   const auto half = SO3<TestType>::from_quaternion(0, 0, 1, 0);
   CHECK(std::abs(half.log().norm() - std::numbers::pi_v<TestType>) <= rounding<TestType>(8));
   CHECK(std::abs(angle_between(half, SO3<TestType>()) - std::numbers::pi_v<TestType>) <=
@@ -97,7 +96,7 @@ TEMPLATE_TEST_CASE("half a turn has a logarithm of length pi", "", float, double
   CHECK((a.log() - b.log()).norm() < TestType(1e-6));
 }
 
-TEMPLATE_TEST_CASE("matrix of a rotation", "", float, double) {
+TEMPLATE_TEST_CASE("matrix of a rotation", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(4);
   for (const S angle : angles<S>()) {
@@ -159,7 +158,7 @@ TEST_CASE("left perturbation moves a camera point by phi x X + rho") {
   CHECK(worst_entry(right, numeric).error > 1e-2);
 }
 
-TEMPLATE_TEST_CASE("casts keep the transform", "", float, double) {
+TEMPLATE_TEST_CASE("casts keep the transform", "", SSLAM_TEST_SCALARS) {
   Random random(8);
   const auto T = SE3<double>::exp(tangent_of_angle<SE3<double>>(2.0, random));
   const auto cast = T.cast<TestType>();
@@ -180,7 +179,8 @@ TEST_CASE("a similarity scales, then moves") {
   }
 }
 
-TEMPLATE_TEST_CASE("a similarity's adjoint takes tangents from its right to its left", "", float, double) {
+TEMPLATE_TEST_CASE("a similarity's adjoint takes tangents from its right to its left", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(4);
   for (int i = 0; i < 20; ++i) {

@@ -7,6 +7,7 @@
 #include "sslam/testing/jacobian_mutants.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -30,7 +31,7 @@ S tolerance() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("an image line measures pixels", "", float, double) {
+TEMPLATE_TEST_CASE("an image line measures pixels", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Vec3<S> l = line_through<S>({0, 10}, {20, 10});
   CHECK(std::abs(l.dot(Vec3<S>(5, 13, 1))) == S(3));
@@ -43,7 +44,7 @@ TEMPLATE_TEST_CASE("an image line measures pixels", "", float, double) {
   CHECK(Segment2<S>{{1, 1}, {1, 1}}.direction().isZero());
 }
 
-TEMPLATE_TEST_CASE("the interpretation plane holds the centre and the segment", "", float, double) {
+TEMPLATE_TEST_CASE("the interpretation plane holds the centre and the segment", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Pinhole<S> k{500, 510, 320, 240};
   const Vec3<S> a(S(0.3), S(-0.2), 2), b(S(-0.4), S(0.5), 3);
@@ -54,7 +55,7 @@ TEMPLATE_TEST_CASE("the interpretation plane holds the centre and the segment", 
   CHECK(interpretation_plane<S>({k.project(a), k.project(a)}, k).norm() < tolerance<S>());
 }
 
-TEMPLATE_TEST_CASE("a line from two points and from two planes", "", float, double) {
+TEMPLATE_TEST_CASE("a line from two points and from two planes", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(1);
   for (int i = 0; i < 100; ++i) {
@@ -73,7 +74,7 @@ TEMPLATE_TEST_CASE("a line from two points and from two planes", "", float, doub
   }
 }
 
-TEMPLATE_TEST_CASE("nearest points on a line", "", float, double) {
+TEMPLATE_TEST_CASE("nearest points on a line", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(2);
   const auto line = Line3<S>::from_points({0, 1, 2}, {1, 1, 2});
@@ -92,7 +93,7 @@ TEMPLATE_TEST_CASE("nearest points on a line", "", float, double) {
   }
 }
 
-TEMPLATE_TEST_CASE("a line moves with its points", "", float, double) {
+TEMPLATE_TEST_CASE("a line moves with its points", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(3);
   for (int i = 0; i < 50; ++i) {
@@ -107,7 +108,7 @@ TEMPLATE_TEST_CASE("a line moves with its points", "", float, double) {
   }
 }
 
-TEMPLATE_TEST_CASE("the image of a line passes through the images of its points", "", float, double) {
+TEMPLATE_TEST_CASE("the image of a line passes through the images of its points", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Pinhole<S> k{500, 510, 320, 240};
   const Vec3<S> a(S(0.3), S(-0.2), 2), b(S(-0.4), S(0.5), 3);
@@ -118,7 +119,7 @@ TEMPLATE_TEST_CASE("the image of a line passes through the images of its points"
   CHECK(project_line(k, Line3<S>::from_points({0, 0, 1}, {0, 0, 2})).isZero());
 }
 
-TEMPLATE_TEST_CASE("the update of a line keeps it a line", "", float, double) {
+TEMPLATE_TEST_CASE("the update of a line keeps it a line", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(4);
   for (int i = 0; i < 50; ++i) {

@@ -7,11 +7,12 @@
 #include "sslam/testing/group_laws.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
 
-TEMPLATE_TEST_CASE("a rotation is its own nearest", "", float, double) {
+TEMPLATE_TEST_CASE("a rotation is its own nearest", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(1);
   for (const S angle : {S(0), S(1e-4), S(1), S(3.1)}) {
@@ -38,7 +39,7 @@ TEST_CASE("no rotation nearby is nearer") {
   }
 }
 
-TEMPLATE_TEST_CASE("two directions are enough and one is not", "", float, double) {
+TEMPLATE_TEST_CASE("two directions are enough and one is not", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto before = SO3<S>::exp({S(0.1), S(0.2), S(0.3)});
   auto rotation = before;
@@ -53,7 +54,7 @@ TEMPLATE_TEST_CASE("two directions are enough and one is not", "", float, double
   CHECK(angle_between(rotation, before) < 20 * std::numeric_limits<S>::epsilon());
 }
 
-TEMPLATE_TEST_CASE("not finite is refused", "", float, double) {
+TEMPLATE_TEST_CASE("not finite is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Mat3<S> m = Mat3<S>::Identity();
   m(1, 2) = std::numeric_limits<S>::quiet_NaN();
@@ -63,7 +64,7 @@ TEMPLATE_TEST_CASE("not finite is refused", "", float, double) {
   CHECK(angle_between(rotation, before) == 0);
 }
 
-TEMPLATE_TEST_CASE("whatever the matrix the answer is a rotation or left as it was", "", float, double) {
+TEMPLATE_TEST_CASE("whatever the matrix the answer is a rotation or left as it was", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto before = SO3<S>::exp({S(0.1), S(0.2), S(0.3)});
   for (std::uint64_t seed = 0; seed < 500; ++seed) {

@@ -5,6 +5,7 @@
 
 #include "sslam/core/random.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 
@@ -21,7 +22,7 @@ Vec3<S> random_unit(Random& random) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("tangent basis is right-handed at every axis", "", float, double) {
+TEMPLATE_TEST_CASE("tangent basis is right-handed at every axis", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   constexpr S kTolerance = 10 * std::numeric_limits<S>::epsilon();
   Random random(1);
@@ -34,7 +35,7 @@ TEMPLATE_TEST_CASE("tangent basis is right-handed at every axis", "", float, dou
   }
 }
 
-TEMPLATE_TEST_CASE("tangent chart keeps the angle from its axis and comes back", "", float, double) {
+TEMPLATE_TEST_CASE("tangent chart keeps the angle from its axis and comes back", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   constexpr S kTolerance = 20 * std::numeric_limits<S>::epsilon();
   Random random(2);

@@ -6,10 +6,11 @@
 
 #include "sslam/geometry/so3.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 
-TEMPLATE_TEST_CASE("The largest sigma is that of the longest axis, however it lies", "", float, double) {
+TEMPLATE_TEST_CASE("The largest sigma is that of the longest axis, however it lies", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const S tolerance = 100 * std::numeric_limits<S>::epsilon();
   const Mat3<S> turned = SO3<S>::exp({S(0.4), S(-1.2), S(0.7)}).matrix();

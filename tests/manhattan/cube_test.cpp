@@ -3,6 +3,7 @@
 
 #include "sslam/manhattan/cube.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -31,7 +32,7 @@ TEST_CASE("the cube has 24 rotations and they are rotations", "[cube]") {
   }
 }
 
-TEMPLATE_TEST_CASE("every renamed frame gets its old names back", "[cube]", float, double) {
+TEMPLATE_TEST_CASE("every renamed frame gets its old names back", "[cube]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(11);
   for (const Mat3<double>& q : cube_rotations()) {

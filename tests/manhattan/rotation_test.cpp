@@ -8,6 +8,7 @@
 #include "sslam/manhattan/rotation.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
@@ -37,7 +38,8 @@ double normalised_error(const ManhattanEstimate<S>& estimate, const SO3<double>&
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("normals and segments alone and together give the rotation", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("normals and segments alone and together give the rotation", "[rotation]",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   struct Case {
     int normals, lines;
@@ -65,7 +67,7 @@ TEMPLATE_TEST_CASE("normals and segments alone and together give the rotation", 
   CHECK(errors.back() < 2 * c.limit_deg);
 }
 
-TEMPLATE_TEST_CASE("thousands of biased normals give way to segments", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("thousands of biased normals give way to segments", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(2);
   VoteScene<S> scene(2, test::any_rotation(random));
@@ -82,7 +84,7 @@ TEMPLATE_TEST_CASE("thousands of biased normals give way to segments", "[rotatio
 }
 
 TEMPLATE_TEST_CASE("the covariance holds for segments and for planes with a bias of their own", "[rotation]",
-                   float, double) {
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto kind = GENERATE(0, 1, 2);  // segments, planes, both
   constexpr int kTrials = 300;
@@ -119,7 +121,7 @@ TEMPLATE_TEST_CASE("the covariance holds for segments and for planes with a bias
   CHECK(beyond <= kTrials / 15);
 }
 
-TEMPLATE_TEST_CASE("one axis leaves the turn about it to the prior", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("one axis leaves the turn about it to the prior", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const bool by_lines = GENERATE(false, true);
   Random random(4);
@@ -144,7 +146,7 @@ TEMPLATE_TEST_CASE("one axis leaves the turn about it to the prior", "[rotation]
   CHECK(across.dot(estimate.covariance * across) < 0.5 * radians(4.0) * radians(4.0));
 }
 
-TEMPLATE_TEST_CASE("two axes are enough in any mixture", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("two axes are enough in any mixture", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto kind = GENERATE(0, 1, 2);
   Random random(5);
@@ -160,7 +162,7 @@ TEMPLATE_TEST_CASE("two axes are enough in any mixture", "[rotation]", float, do
   CHECK(error_deg(estimate.cam_from_manhattan, scene.truth) < 0.5);
 }
 
-TEMPLATE_TEST_CASE("pieces of one image line are not an axis", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("pieces of one image line are not an axis", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(6);
   VoteScene<S> scene(6, test::any_rotation(random));
@@ -178,8 +180,8 @@ TEMPLATE_TEST_CASE("pieces of one image line are not an axis", "[rotation]", flo
   CHECK_FALSE(estimate.axes[2].seen);
 }
 
-TEMPLATE_TEST_CASE("a camera that turns right round keeps the names of its axes", "[rotation]", float,
-                   double) {
+TEMPLATE_TEST_CASE("a camera that turns right round keeps the names of its axes", "[rotation]",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(7);
   const SO3<double> start = test::any_rotation(random);
@@ -201,8 +203,8 @@ TEMPLATE_TEST_CASE("a camera that turns right round keeps the names of its axes"
   }
 }
 
-TEMPLATE_TEST_CASE("whatever the prior the answer is near it or is the prior itself", "[rotation]", float,
-                   double) {
+TEMPLATE_TEST_CASE("whatever the prior the answer is near it or is the prior itself", "[rotation]",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(8);
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -222,7 +224,7 @@ TEMPLATE_TEST_CASE("whatever the prior the answer is near it or is the prior its
   }
 }
 
-TEMPLATE_TEST_CASE("a limit on the jump is kept", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("a limit on the jump is kept", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(9);
   VoteScene<S> scene(9, test::any_rotation(random));
@@ -238,7 +240,7 @@ TEMPLATE_TEST_CASE("a limit on the jump is kept", "[rotation]", float, double) {
 }
 
 TEMPLATE_TEST_CASE("after an unseen turn about the one axis in view the next wall is met again", "[rotation]",
-                   float, double) {
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   const double turn_deg = GENERATE(-38.0, -22.0, 17.0, 30.0);
   Random random(10);
@@ -254,7 +256,7 @@ TEMPLATE_TEST_CASE("after an unseen turn about the one axis in view the next wal
   CHECK(error_deg(estimate.cam_from_manhattan, scene.truth) < 1);
 }
 
-TEMPLATE_TEST_CASE("votes without structure near the prior are refused", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("votes without structure near the prior are refused", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(11);
   int accepted = 0;
@@ -267,7 +269,7 @@ TEMPLATE_TEST_CASE("votes without structure near the prior are refused", "[rotat
   CHECK(accepted == 0);
 }
 
-TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   constexpr S kNan = std::numeric_limits<S>::quiet_NaN();
   Random random(12);
@@ -354,7 +356,8 @@ TEMPLATE_TEST_CASE("odd inputs get a status and the prior", "[rotation]", float,
   }
 }
 
-TEMPLATE_TEST_CASE("whatever the votes and the prior the answer is finite", "[rotation]", float, double) {
+TEMPLATE_TEST_CASE("whatever the votes and the prior the answer is finite", "[rotation]",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random draws(15);
   const auto good = test::corner<S>(15, test::any_rotation(draws), 300);

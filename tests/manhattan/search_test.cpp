@@ -6,6 +6,7 @@
 
 #include "sslam/manhattan/search.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 #include "support/trials.hpp"
 #include "vote_scene.hpp"
 
@@ -43,7 +44,7 @@ Score search_everywhere(int views, Fill fill) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("a frame is found from any orientation by normals of 15 degrees and cluttered segments",
-                   "[search]", float, double) {
+                   "[search]", SSLAM_TEST_SCALARS) {
   const Score score = search_everywhere<TestType>(kViews, [](auto& scene) {
     for (int k = 0; k < 3; ++k) {
       scene.add_plane(k, 1000, 15);
@@ -85,7 +86,7 @@ TEST_CASE("a wall and segments along one other axis are enough", "[search]") {
   CHECK(score.wrong == 0);
 }
 
-TEMPLATE_TEST_CASE("no frame is found where there is none", "[search]", float, double) {
+TEMPLATE_TEST_CASE("no frame is found where there is none", "[search]", SSLAM_TEST_SCALARS) {
   const auto kind = GENERATE(0, 1, 2, 3);
   const Score score = search_everywhere<TestType>(kFewViews, [kind](auto& scene) {
     if (kind == 0) scene.add_clutter_lines(8, 0.004);
@@ -179,7 +180,7 @@ TEST_CASE("a single plane or a single direction of segments is degenerate", "[se
   CHECK(by_lines.status == Status::kDegenerate);
 }
 
-TEMPLATE_TEST_CASE("one direction alone is degenerate for the search", "[search]", float, double) {
+TEMPLATE_TEST_CASE("one direction alone is degenerate for the search", "[search]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(14);
   const auto kind = GENERATE(0, 1, 2);
@@ -193,7 +194,7 @@ TEMPLATE_TEST_CASE("one direction alone is degenerate for the search", "[search]
   CHECK(estimate.cam_from_manhattan.matrix().allFinite());
 }
 
-TEMPLATE_TEST_CASE("the search refuses odd inputs", "[search]", float, double) {
+TEMPLATE_TEST_CASE("the search refuses odd inputs", "[search]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const SearchOptions<S> options;
   VoteScene<S> scene(9, SO3<double>());
@@ -215,8 +216,8 @@ TEMPLATE_TEST_CASE("the search refuses odd inputs", "[search]", float, double) {
   CHECK(find_manhattan<S>(scene.normals(), scene.lines(), options, 1).status == Status::kNotFinite);
 }
 
-TEMPLATE_TEST_CASE("whatever the votes the search answers with a finite rotation", "[search]", float,
-                   double) {
+TEMPLATE_TEST_CASE("whatever the votes the search answers with a finite rotation", "[search]",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random draws(15);
   const auto good = test::corner<S>(15, test::any_rotation(draws), 100);
@@ -230,7 +231,7 @@ TEMPLATE_TEST_CASE("whatever the votes the search answers with a finite rotation
   }
 }
 
-TEMPLATE_TEST_CASE("a handful of random normals is no frame", "[search]", float, double) {
+TEMPLATE_TEST_CASE("a handful of random normals is no frame", "[search]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   int accepted = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

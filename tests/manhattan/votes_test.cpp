@@ -4,11 +4,12 @@
 
 #include "sslam/manhattan/line_circles.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 #include "vote_scene.hpp"
 
 using namespace sslam;
 
-TEMPLATE_TEST_CASE("the sigma of a line vote is the turn of its plane", "[votes]", float, double) {
+TEMPLATE_TEST_CASE("the sigma of a line vote is the turn of its plane", "[votes]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Pinhole<double> pinhole{480, 480, 320, 240};
   const Segment2<double> segment{{400, 120}, {470, 200}};
@@ -58,7 +59,7 @@ TEST_CASE("over segments in any direction the likelihood ratio has mean one", "[
   for (int k = 0; k < 3; ++k) CHECK(sum[k] / 40000 == Approx(1).epsilon(0.1));
 }
 
-TEMPLATE_TEST_CASE("segments are told apart by axis and clutter is left out", "[votes]", float, double) {
+TEMPLATE_TEST_CASE("segments are told apart by axis and clutter is left out", "[votes]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(6);
   test::VoteScene<S> scene(6, test::any_rotation(random));

@@ -5,6 +5,7 @@
 #include "sslam/testing/jacobian_mutants.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -57,7 +58,7 @@ TEST_CASE("line error is the distance of the observed ends from the projected li
   }
 }
 
-TEMPLATE_TEST_CASE("line Jacobians entry by entry", "", float, double) {
+TEMPLATE_TEST_CASE("line Jacobians entry by entry", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const double agree = std::is_same_v<S, float> ? 5e-3 : kAgree;
   Random random(2);

@@ -7,6 +7,7 @@
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
+#include "support/test_scalars.hpp"
 
 namespace {
 
@@ -57,7 +58,7 @@ TEST_CASE("What lies on a plane has no error, and what lies off it the distance"
   CHECK((line_on_plane(floor, Line3<double>::from_points(c, a), a, c).error - tilted).norm() < 1e-12);
 }
 
-TEMPLATE_TEST_CASE("Jacobians of the ties to a plane, entry by entry", "", float, double) {
+TEMPLATE_TEST_CASE("Jacobians of the ties to a plane, entry by entry", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const double agree = std::is_same_v<S, float> ? 2e-3 : 1e-6;
   Random random(1);

@@ -7,6 +7,7 @@
 #include "sslam/testing/jacobian_mutants.hpp"
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -43,7 +44,7 @@ TEST_CASE("point error is observed minus projected in pixels") {
   CHECK((out.error - Vec2<double>(450 - (320 + 125), 260 - (240 + 26.5))).norm() < 1e-12);
 }
 
-TEMPLATE_TEST_CASE("point Jacobians entry by entry", "", float, double) {
+TEMPLATE_TEST_CASE("point Jacobians entry by entry", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const double agree = std::is_same_v<S, float> ? 2e-3 : kAgree;
   Random random(1);
@@ -97,7 +98,7 @@ TEST_CASE("the comparison kills wrong point Jacobians") {
   CHECK(killed > 1000);
 }
 
-TEMPLATE_TEST_CASE("a point behind the camera has no error and leaves the output", "", float, double) {
+TEMPLATE_TEST_CASE("a point behind the camera has no error and leaves the output", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Pinhole<S> k{500, 530, 320, 240};
   PointReprojection<S> out;

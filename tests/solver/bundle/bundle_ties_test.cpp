@@ -8,6 +8,7 @@
 #include "sslam/solver/least_squares/block_kernels.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 namespace {
 
@@ -90,7 +91,7 @@ TEST_CASE("Ties are at rest where they should be") {
   REQUIRE(std::abs(scale_tie_residual<double>({1, 0, 0}, 2, {SO3<double>(), {1, 0, 0}})) < 1e-15);
 }
 
-TEMPLATE_TEST_CASE("The block kernels do what the matrix products do", "", float, double) {
+TEMPLATE_TEST_CASE("The block kernels do what the matrix products do", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(13);
   const auto fill = [&](auto& m) {

@@ -6,6 +6,7 @@
 
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
+#include "support/test_scalars.hpp"
 
 namespace {
 
@@ -63,7 +64,7 @@ Sim3<S> small_drift() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("A loop takes most of the drift out of a ring", "", float, double) {
+TEMPLATE_TEST_CASE("A loop takes most of the drift out of a ring", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   PoseGraph<S> graph = drifted_ring(small_drift<S>());
   const S before = worst_place(graph);

@@ -6,6 +6,7 @@
 
 #include "sslam/geometry/so3.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 
@@ -38,7 +39,7 @@ auto parabola(S limit, Beyond beyond) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("a curved valley is followed to its end", "", float, double) {
+TEMPLATE_TEST_CASE("a curved valley is followed to its end", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Flat2<S> x{{S(-1.2), 1}};
   LmOptions options;
@@ -53,7 +54,7 @@ TEMPLATE_TEST_CASE("a curved valley is followed to its end", "", float, double) 
   CHECK(is_observable(summary.information));
 }
 
-TEMPLATE_TEST_CASE("a linear problem takes no more than three steps", "", float, double) {
+TEMPLATE_TEST_CASE("a linear problem takes no more than three steps", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto line_fit = [](const Flat2<S>& at, NormalEquations<S, 2>& equations) {
     S cost = 0;
@@ -79,7 +80,7 @@ TEMPLATE_TEST_CASE("a linear problem takes no more than three steps", "", float,
   CHECK(summary.information(1, 1) == S(285));
 }
 
-TEMPLATE_TEST_CASE("a rotation is found on its manifold", "", float, double) {
+TEMPLATE_TEST_CASE("a rotation is found on its manifold", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto truth = SO3<S>::exp({S(1.2), S(-0.7), S(0.4)});
   const auto align = [&](const SO3<S>& r, NormalEquations<S, 3>& equations) {
@@ -97,7 +98,7 @@ TEMPLATE_TEST_CASE("a rotation is found on its manifold", "", float, double) {
   CHECK(angle_between(r, truth) < S(1e-3));
 }
 
-TEMPLATE_TEST_CASE("a step that changes what counts is refused", "", float, double) {
+TEMPLATE_TEST_CASE("a step that changes what counts is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Euclidean<S, 1> x{Vec<S, 1>(S(0))};
   const auto drops = parabola<S>(S(2), [](auto& answer, auto&) { answer = {S(0), 0}; });
@@ -111,7 +112,7 @@ TEMPLATE_TEST_CASE("a step that changes what counts is refused", "", float, doub
   CHECK(summary.final_cost < summary.initial_cost);
 }
 
-TEMPLATE_TEST_CASE("a step into what is not finite is refused", "", float, double) {
+TEMPLATE_TEST_CASE("a step into what is not finite is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const S nan = std::numeric_limits<S>::quiet_NaN();
   LmOptions options;
@@ -132,7 +133,7 @@ TEMPLATE_TEST_CASE("a step into what is not finite is refused", "", float, doubl
   }
 }
 
-TEMPLATE_TEST_CASE("a start that is not finite is refused", "", float, double) {
+TEMPLATE_TEST_CASE("a start that is not finite is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto always =
       parabola<S>(S(-100), [](auto& answer, auto&) { answer.cost = std::numeric_limits<S>::infinity(); });
@@ -141,7 +142,7 @@ TEMPLATE_TEST_CASE("a start that is not finite is refused", "", float, double) {
   CHECK(x.value[0] == S(0.5));
 }
 
-TEMPLATE_TEST_CASE("a matrix that cannot be factored leaves the state", "", float, double) {
+TEMPLATE_TEST_CASE("a matrix that cannot be factored leaves the state", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto concave = [](const Euclidean<S, 1>& at, NormalEquations<S, 1>& equations) {
     equations.add(Mat<S, 1, 1>(S(1)), at.value[0], S(-1));
@@ -155,7 +156,7 @@ TEMPLATE_TEST_CASE("a matrix that cannot be factored leaves the state", "", floa
   CHECK(x.value[0] == S(0.5));
 }
 
-TEMPLATE_TEST_CASE("nothing to minimise", "", float, double) {
+TEMPLATE_TEST_CASE("nothing to minimise", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Euclidean<S, 1> x;
   const auto nothing = [](const Euclidean<S, 1>&, NormalEquations<S, 1>&) { return S(0); };
@@ -167,7 +168,7 @@ TEMPLATE_TEST_CASE("nothing to minimise", "", float, double) {
   CHECK(x.value[0] == 0);
 }
 
-TEMPLATE_TEST_CASE("an ascent is never taken", "", float, double) {
+TEMPLATE_TEST_CASE("an ascent is never taken", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   // The derivative points the wrong way, so that every step climbs.
   const auto wrong_way = [](const Euclidean<S, 1>& at, NormalEquations<S, 1>& equations) {
@@ -183,7 +184,7 @@ TEMPLATE_TEST_CASE("an ascent is never taken", "", float, double) {
   CHECK(summary.final_cost == summary.initial_cost);
 }
 
-TEMPLATE_TEST_CASE("a direction without information is told", "", float, double) {
+TEMPLATE_TEST_CASE("a direction without information is told", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto one_way = [](const Flat2<S>& at, NormalEquations<S, 2>& equations) {
     const S r = at.value.x() + 2 * at.value.y() - 1;

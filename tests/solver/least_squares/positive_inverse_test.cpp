@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 namespace positive_inverse_test {
 
@@ -16,14 +17,15 @@ Mat3<S> skewed() {
   return H;
 }
 
-TEMPLATE_TEST_CASE("A positive definite matrix times its inverse is the identity", "", float, double) {
+TEMPLATE_TEST_CASE("A positive definite matrix times its inverse is the identity", "", SSLAM_TEST_SCALARS) {
   const Mat3<TestType> H = skewed<TestType>();
   Mat3<TestType> inverse;
   REQUIRE(inverse_of<TestType, 3>(H, inverse));
   CHECK((H * inverse - Mat3<TestType>::Identity()).norm() < 10 * std::numeric_limits<TestType>::epsilon());
 }
 
-TEMPLATE_TEST_CASE("No inverse is given that is not positive, not a number or infinite", "", float, double) {
+TEMPLATE_TEST_CASE("No inverse is given that is not positive, not a number or infinite", "",
+                   SSLAM_TEST_SCALARS) {
   using Limits = std::numeric_limits<TestType>;
   const Mat3<TestType> untouched = 7 * Mat3<TestType>::Identity();
   for (const TestType spoilt :

@@ -7,6 +7,7 @@
 #include "sslam/solver/modes/mean_shift.hpp"
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -44,7 +45,7 @@ Cloud cluster(int count, double du, double dv, double scatter) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("the boosted step all but reaches the mode", "[mean_shift]", float, double) {
+TEMPLATE_TEST_CASE("the boosted step all but reaches the mode", "[mean_shift]", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const S width = radians(S(5));
   for (const double scatter : {0.005, 0.03, 0.08}) {

@@ -6,6 +6,7 @@
 
 #include "sslam/core/random.hpp"
 #include "support/catch.hpp"
+#include "support/test_scalars.hpp"
 
 namespace {
 
@@ -20,7 +21,7 @@ std::vector<S> scatter(Random& random, int count, S low, S high) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("The mode is where the crowd is, and stands out", "", float, double) {
+TEMPLATE_TEST_CASE("The mode is where the crowd is, and stands out", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   Random random(1);
   std::vector<S> offsets = scatter<S>(random, 200, -1, 3);

@@ -10,6 +10,7 @@
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 
 using namespace sslam;
 using namespace sslam::testing;
@@ -103,7 +104,7 @@ PoseScene<S> scene_of_one_row() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("exact observations give the exact pose", "", float, double) {
+TEMPLATE_TEST_CASE("exact observations give the exact pose", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const double metres = std::is_same_v<S, float> ? 1e-3 : 1e-6;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -121,7 +122,7 @@ TEMPLATE_TEST_CASE("exact observations give the exact pose", "", float, double) 
   }
 }
 
-TEMPLATE_TEST_CASE("forty percent of gross mismatches are sorted out", "", float, double) {
+TEMPLATE_TEST_CASE("forty percent of gross mismatches are sorted out", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     PoseScene<S> scene(200, 60, 0.4, 0.7, seed);
@@ -198,7 +199,7 @@ TEST_CASE("gradient of the whole cost entry by entry") {
   }
 }
 
-TEMPLATE_TEST_CASE("translation alone leaves the rotation", "", float, double) {
+TEMPLATE_TEST_CASE("translation alone leaves the rotation", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     PoseScene<S> scene(60, 20, 0.3, 0.5, seed);
@@ -212,7 +213,7 @@ TEMPLATE_TEST_CASE("translation alone leaves the rotation", "", float, double) {
   }
 }
 
-TEMPLATE_TEST_CASE("what the matches leave open is told and a prior closes it", "", float, double) {
+TEMPLATE_TEST_CASE("what the matches leave open is told and a prior closes it", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   auto scene = scene_of_one_row<S>();
   const auto start = scene.start(1, 0.02, 6);
@@ -228,7 +229,7 @@ TEMPLATE_TEST_CASE("what the matches leave open is told and a prior closes it", 
   CHECK(scene.refine_position(pose).status == Status::kOk);
 }
 
-TEMPLATE_TEST_CASE("lines of one direction leave the way along them open", "", float, double) {
+TEMPLATE_TEST_CASE("lines of one direction leave the way along them open", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   PoseScene<S> scene(0, 10, 0, 0, 7);
   for (int i = 0; i < 10; ++i) {
@@ -242,7 +243,7 @@ TEMPLATE_TEST_CASE("lines of one direction leave the way along them open", "", f
   CHECK(scene.refine_position(pose).status == Status::kDegenerate);
 }
 
-TEMPLATE_TEST_CASE("a wrong prior lets go", "", float, double) {
+TEMPLATE_TEST_CASE("a wrong prior lets go", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   PoseScene<S> scene(100, 30, 0, 0.7, 8);
   const RotationPrior<S> wrong{scene.start(20, 0, 9).rotation, Mat3<S>::Identity() * S(1e4)};
@@ -258,7 +259,7 @@ TEMPLATE_TEST_CASE("a wrong prior lets go", "", float, double) {
   CHECK(poor.degrees_off(helped) < poor.degrees_off(alone));
 }
 
-TEMPLATE_TEST_CASE("failure leaves the pose", "", float, double) {
+TEMPLATE_TEST_CASE("failure leaves the pose", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const S nan = std::numeric_limits<S>::quiet_NaN();
   const auto refuses = [](PoseScene<S> scene, const SE3<S>& start, Status status) {
@@ -300,7 +301,7 @@ TEMPLATE_TEST_CASE("failure leaves the pose", "", float, double) {
   CHECK(whole.refine(pose).status == Status::kNotFinite);
 }
 
-TEMPLATE_TEST_CASE("whatever the observations the pose is finite or as before", "", float, double) {
+TEMPLATE_TEST_CASE("whatever the observations the pose is finite or as before", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const PoseScene<S> good(200, 60, 0.1, 0.7, 19);
   const auto start = good.start(1, 0.05, 20);

@@ -9,6 +9,7 @@
 #include "sslam/solver/triangulation/triangulate_line.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 
 namespace sslam {
 namespace {
@@ -110,7 +111,7 @@ LineScore score(const LineSceneOptions& o, bool along) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("line: exact views give the exact line", "", float, double) {
+TEMPLATE_TEST_CASE("line: exact views give the exact line", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const double tolerance = std::is_same_v<S, float> ? 2e-3 : 1e-8;
   for (const int cameras : {2, 3, 6})
@@ -126,7 +127,7 @@ TEMPLATE_TEST_CASE("line: exact views give the exact line", "", float, double) {
     }
 }
 
-TEMPLATE_TEST_CASE("line: the error is as large as its covariance says", "", float, double) {
+TEMPLATE_TEST_CASE("line: the error is as large as its covariance says", "", SSLAM_TEST_SCALARS) {
   for (const int cameras : {2, 3, 6})
     for (const double far : {0.0, 30.0}) {
       const LineScore s = score<TestType>({.cameras = cameras, .far = far}, false);
@@ -137,7 +138,7 @@ TEMPLATE_TEST_CASE("line: the error is as large as its covariance says", "", flo
     }
 }
 
-TEMPLATE_TEST_CASE("line: a known direction needs less parallax", "", float, double) {
+TEMPLATE_TEST_CASE("line: a known direction needs less parallax", "", SSLAM_TEST_SCALARS) {
   const LineSceneOptions close{.cameras = 2, .step = 0.12, .upright = true};
   const LineScore open = score<TestType>(close, false), held = score<TestType>(close, true);
   CAPTURE(open.ok, held.ok, held.chi2);
@@ -147,8 +148,8 @@ TEMPLATE_TEST_CASE("line: a known direction needs less parallax", "", float, dou
   CHECK(held.chi2 < 2.8);
 }
 
-TEMPLATE_TEST_CASE("line: a segment that does not follow the known direction is no consensus", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("line: a segment that does not follow the known direction is no consensus", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto views = make_scene({.upright = true}, seed).as<S>();
@@ -157,14 +158,14 @@ TEMPLATE_TEST_CASE("line: a segment that does not follow the known direction is 
   }
 }
 
-TEMPLATE_TEST_CASE("line: in an epipolar plane it is low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("line: in an epipolar plane it is low parallax", "", SSLAM_TEST_SCALARS) {
   const LineScore exact = score<TestType>({.noise = 0, .epipolar = true}, false);
   CHECK(exact.ok == 0);
   CHECK(exact.low_parallax >= 195);
   CHECK(score<TestType>({.epipolar = true}, false).ok <= 2);
 }
 
-TEMPLATE_TEST_CASE("line: without a baseline it is low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("line: without a baseline it is low parallax", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto view = make_scene({.noise = 0}, 1).as<S>()[0];
   const std::vector<LineView<S>> same(3, view);
@@ -172,7 +173,7 @@ TEMPLATE_TEST_CASE("line: without a baseline it is low parallax", "", float, dou
   CHECK(triangulate_line_along<S>(same, Vec3<S>::UnitY()).status == Status::kLowParallax);
 }
 
-TEMPLATE_TEST_CASE("line: ends are trimmed to what the views show", "", float, double) {
+TEMPLATE_TEST_CASE("line: ends are trimmed to what the views show", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   // The line x = 0, z = 4; one view shows y in [-1, 0.5], the other [0, 1].
   std::vector<LineView<S>> views(2);
@@ -189,7 +190,7 @@ TEMPLATE_TEST_CASE("line: ends are trimmed to what the views show", "", float, d
   CHECK(std::abs(answer.parallax - std::atan(S(0.25))) < S(1e-4));
 }
 
-TEMPLATE_TEST_CASE("line: it runs the way that the first view shows it", "", float, double) {
+TEMPLATE_TEST_CASE("line: it runs the way that the first view shows it", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   int triangulated = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -214,7 +215,7 @@ TEMPLATE_TEST_CASE("line: it runs the way that the first view shows it", "", flo
   CHECK(triangulated > 50);
 }
 
-TEMPLATE_TEST_CASE("line: behind the cameras", "", float, double) {
+TEMPLATE_TEST_CASE("line: behind the cameras", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   std::vector<LineView<S>> views(2);
   views[0].segment = {{S(-0.1), S(-0.2)}, {S(-0.1), S(0.2)}};
@@ -223,7 +224,7 @@ TEMPLATE_TEST_CASE("line: behind the cameras", "", float, double) {
   CHECK(triangulate_line<S>(views).status == Status::kBehind);
 }
 
-TEMPLATE_TEST_CASE("line: absurdly long ends are refused", "", float, double) {
+TEMPLATE_TEST_CASE("line: absurdly long ends are refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   // A rail beside the track, seen to within a pixel of its vanishing point.
   std::vector<LineView<S>> views(2);
@@ -238,7 +239,7 @@ TEMPLATE_TEST_CASE("line: absurdly long ends are refused", "", float, double) {
   CHECK(answer.status == Status::kDegenerate);
 }
 
-TEMPLATE_TEST_CASE("line: a view that disagrees is no consensus", "", float, double) {
+TEMPLATE_TEST_CASE("line: a view that disagrees is no consensus", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     auto views = make_scene({.cameras = 5, .noise = 0.5}, seed).as<S>();
@@ -250,7 +251,7 @@ TEMPLATE_TEST_CASE("line: a view that disagrees is no consensus", "", float, dou
   }
 }
 
-TEMPLATE_TEST_CASE("line: bad input is refused", "", float, double) {
+TEMPLATE_TEST_CASE("line: bad input is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   CHECK(triangulate_line<S>(std::span<const LineView<S>>{}).status == Status::kTooFew);
   const auto good = make_scene({}, 1).as<S>();
@@ -270,7 +271,7 @@ TEMPLATE_TEST_CASE("line: bad input is refused", "", float, double) {
   CHECK(triangulate_line<S>(views).status == Status::kDegenerate);
 }
 
-TEMPLATE_TEST_CASE("line: a view is made from pixels", "", float, double) {
+TEMPLATE_TEST_CASE("line: a view is made from pixels", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Pinhole<S> pinhole{500, 510, 320, 240};
   const auto view = make_line_view<S>({}, pinhole, {{320, 240}, {S(370), S(291)}}, 2);
@@ -279,7 +280,7 @@ TEMPLATE_TEST_CASE("line: a view is made from pixels", "", float, double) {
   CHECK(std::abs(view.sigma - S(0.004)) < S(1e-6));
 }
 
-TEMPLATE_TEST_CASE("line: whatever the views an answer is finite", "", float, double) {
+TEMPLATE_TEST_CASE("line: whatever the views an answer is finite", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto good = make_scene({.cameras = 8}, 1).as<S>();
   for (std::uint64_t seed = 0; seed < 300; ++seed) {

@@ -8,6 +8,7 @@
 #include "sslam/solver/triangulation/triangulate_point.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 
 namespace sslam {
 namespace {
@@ -49,7 +50,7 @@ PointScene make_scene(int cameras, double step, double noise_px, std::uint64_t s
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("point: exact views give the exact point", "", float, double) {
+TEMPLATE_TEST_CASE("point: exact views give the exact point", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (const int cameras : {2, 3, 8}) {
     const PointScene scene = make_scene(cameras, 0.3, 0, 5);
@@ -62,7 +63,7 @@ TEMPLATE_TEST_CASE("point: exact views give the exact point", "", float, double)
   }
 }
 
-TEMPLATE_TEST_CASE("point: the error is as large as its covariance says", "", float, double) {
+TEMPLATE_TEST_CASE("point: the error is as large as its covariance says", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (const int cameras : {2, 3, 8})
     for (const double far : {0.0, 50.0}) {
@@ -86,7 +87,7 @@ TEMPLATE_TEST_CASE("point: the error is as large as its covariance says", "", fl
     }
 }
 
-TEMPLATE_TEST_CASE("point: two views agree with the general form", "", float, double) {
+TEMPLATE_TEST_CASE("point: two views agree with the general form", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const PointScene scene = make_scene(2, 0.4, 1, 7);
   const auto views = scene.as<S>();
@@ -101,7 +102,7 @@ TEMPLATE_TEST_CASE("point: two views agree with the general form", "", float, do
   CHECK((views[0].cam_from_world * world.point - camera.point).norm() < S(1e-3));
 }
 
-TEMPLATE_TEST_CASE("point: the parallax is the largest over all pairs", "", float, double) {
+TEMPLATE_TEST_CASE("point: the parallax is the largest over all pairs", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   std::vector<PointView<S>> views;
   for (const S x : {S(0), S(0.3), S(1), S(0.5)}) {
@@ -115,7 +116,7 @@ TEMPLATE_TEST_CASE("point: the parallax is the largest over all pairs", "", floa
   CHECK((answer.point - Vec3<S>(0, 0, 2)).norm() < S(1e-4));
 }
 
-TEMPLATE_TEST_CASE("point: parallel rays are low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("point: parallel rays are low parallax", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const SE3<S> step{{}, {S(0.1), 0, 0}};
   const BearingMatch<S> infinite{Vec3<S>(S(0.2), S(0.1), 1), Vec3<S>(S(0.2), S(0.1), 1)};
@@ -130,14 +131,14 @@ TEMPLATE_TEST_CASE("point: parallel rays are low parallax", "", float, double) {
   CHECK(!usable(triangulate_point<S>(infinite, still, anything).status));
 }
 
-TEMPLATE_TEST_CASE("point: diverging rays meet behind the cameras", "", float, double) {
+TEMPLATE_TEST_CASE("point: diverging rays meet behind the cameras", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const SE3<S> step{{}, {S(-0.5), 0, 0}};  // camera 1 stands to the right
   const BearingMatch<S> match{Vec3<S>(S(-0.1), 0, 1), Vec3<S>(S(0.1), 0, 1)};
   CHECK(triangulate_point<S>(match, step).status == Status::kBehind);
 }
 
-TEMPLATE_TEST_CASE("point: a view that disagrees is no consensus", "", float, double) {
+TEMPLATE_TEST_CASE("point: a view that disagrees is no consensus", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     auto views = make_scene(5, 0.3, 0.5, seed).as<S>();
@@ -149,7 +150,7 @@ TEMPLATE_TEST_CASE("point: a view that disagrees is no consensus", "", float, do
   }
 }
 
-TEMPLATE_TEST_CASE("point: bad input is refused", "", float, double) {
+TEMPLATE_TEST_CASE("point: bad input is refused", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   CHECK(triangulate_point<S>(std::span<const PointView<S>>{}).status == Status::kTooFew);
   const auto good = make_scene(3, 0.3, 0, 1).as<S>();
@@ -168,7 +169,7 @@ TEMPLATE_TEST_CASE("point: bad input is refused", "", float, double) {
   CHECK(triangulate_point<S>(views).status == Status::kNotFinite);
 }
 
-TEMPLATE_TEST_CASE("point: whatever the views an answer is finite", "", float, double) {
+TEMPLATE_TEST_CASE("point: whatever the views an answer is finite", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto good = make_scene(8, 0.3, 1, 1).as<S>();
   for (std::uint64_t seed = 0; seed < 500; ++seed) {

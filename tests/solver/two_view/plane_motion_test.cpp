@@ -8,6 +8,7 @@
 
 #include "support/catch.hpp"
 #include "support/random_draws.hpp"
+#include "support/test_scalars.hpp"
 
 namespace sslam {
 namespace {
@@ -66,8 +67,8 @@ struct Views {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("plane motion: the predicted accuracy is reached, with few matches too", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("plane motion: the predicted accuracy is reached, with few matches too", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (const int matches : {8, 20, 200}) {
     double chi2 = 0;
@@ -87,7 +88,7 @@ TEMPLATE_TEST_CASE("plane motion: the predicted accuracy is reached, with few ma
   }
 }
 
-TEMPLATE_TEST_CASE("plane motion: a third of the matches may lie off the plane", "", float, double) {
+TEMPLATE_TEST_CASE("plane motion: a third of the matches may lie off the plane", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   int found = 0;
   double worst = 0;

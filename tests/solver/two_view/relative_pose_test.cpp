@@ -9,6 +9,7 @@
 #include "sslam/testing/numeric_jacobian.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 #include "support/trials.hpp"
 
 namespace sslam {
@@ -82,7 +83,7 @@ TEST_CASE("epipolar error: of true matches it has unit variance") {
   CHECK(std::abs(sum / 20000 - 1) < 0.03);  // three standard deviations
 }
 
-TEMPLATE_TEST_CASE("rotation from bearings: pure rotation with mismatches", "", float, double) {
+TEMPLATE_TEST_CASE("rotation from bearings: pure rotation with mismatches", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (const double mismatches : {0.0, 0.3, 0.5}) {
     double chi2 = 0;
@@ -104,7 +105,7 @@ TEMPLATE_TEST_CASE("rotation from bearings: pure rotation with mismatches", "", 
   }
 }
 
-TEMPLATE_TEST_CASE("rotation from bearings: refusals", "", float, double) {
+TEMPLATE_TEST_CASE("rotation from bearings: refusals", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   CHECK(rotation_from_bearings<S>({}, {}, 1).status == Status::kTooFew);
   auto matches = make_two_views({.baseline = 2}, 1).as<S>();
@@ -115,7 +116,7 @@ TEMPLATE_TEST_CASE("rotation from bearings: refusals", "", float, double) {
   CHECK(rotation_from_bearings<S>(same, {}, 1).status == Status::kDegenerate);
 }
 
-TEMPLATE_TEST_CASE("relative pose: refinement reaches the predicted accuracy", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: refinement reaches the predicted accuracy", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   for (const double mismatches : {0.0, 0.3}) {
     double chi2_t = 0, chi2_R = 0;
@@ -142,7 +143,8 @@ TEMPLATE_TEST_CASE("relative pose: refinement reaches the predicted accuracy", "
   }
 }
 
-TEMPLATE_TEST_CASE("relative pose: a prior on the rotation sharpens the translation", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: a prior on the rotation sharpens the translation", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   const TwoViews views = make_two_views({.matches = 100, .baseline = 0.3}, 4);
   const auto matches = views.as<S>();
@@ -162,7 +164,7 @@ TEMPLATE_TEST_CASE("relative pose: a prior on the rotation sharpens the translat
   CHECK(direction_chi2(t_held, held.translation_covariance, views.t_10) < 14);
 }
 
-TEMPLATE_TEST_CASE("relative pose: found from nothing for turns up to 10 degrees", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: found from nothing for turns up to 10 degrees", "", SSLAM_TEST_SCALARS) {
   for (const double turn : {0.0, 5.0, 10.0}) {
     const RelativePoseScore s = find<TestType>({.mismatches = 0.3, .baseline = 0.5, .turn = turn});
     CAPTURE(turn, s.ok, s.chi2_t, s.chi2_R);
@@ -173,20 +175,20 @@ TEMPLATE_TEST_CASE("relative pose: found from nothing for turns up to 10 degrees
   }
 }
 
-TEMPLATE_TEST_CASE("relative pose: half of the matches may be wrong", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: half of the matches may be wrong", "", SSLAM_TEST_SCALARS) {
   const RelativePoseScore s = find<TestType>({.mismatches = 0.5, .baseline = 0.5});
   CHECK(s.ok >= kRelativePoseTrials - 4);
   CHECK(s.wrong == 0);
 }
 
-TEMPLATE_TEST_CASE("relative pose: pure rotation is low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: pure rotation is low parallax", "", SSLAM_TEST_SCALARS) {
   const RelativePoseScore s =
       find<TestType>({.mismatches = 0.3, .turn = 8, .scene = TwoViewOptions::kInfinite});
   CHECK(s.low_parallax >= kRelativePoseTrials - 2);
   CHECK(s.ok == 0);
 }
 
-TEMPLATE_TEST_CASE("relative pose: a camera that stands still is low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: a camera that stands still is low parallax", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   auto matches = make_two_views({.noise = 0}, 3).as<S>();
   for (auto& match : matches) match.ray1 = match.ray0;
@@ -198,7 +200,7 @@ TEMPLATE_TEST_CASE("relative pose: a camera that stands still is low parallax", 
 }
 
 TEMPLATE_TEST_CASE("relative pose: a flat scene is solved where it has one answer and refused elsewhere", "",
-                   float, double) {
+                   SSLAM_TEST_SCALARS) {
   const RelativePoseScore s =
       find<TestType>({.mismatches = 0.3, .noise = 0.5, .baseline = 0.5, .scene = TwoViewOptions::kFlat});
   CAPTURE(s.ok, s.degenerate, s.wrong);
@@ -207,8 +209,8 @@ TEMPLATE_TEST_CASE("relative pose: a flat scene is solved where it has one answe
   CHECK(s.wrong <= 1);
 }
 
-TEMPLATE_TEST_CASE("relative pose: a rotation prior decides between the answers of a flat scene", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("relative pose: a rotation prior decides between the answers of a flat scene", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   int ok = 0, wrong = 0;
   for (std::uint64_t seed = 0; seed < kRelativePoseTrials; ++seed) {
@@ -228,7 +230,7 @@ TEMPLATE_TEST_CASE("relative pose: a rotation prior decides between the answers 
   CHECK(wrong <= 1);
 }
 
-TEMPLATE_TEST_CASE("relative pose: failure leaves the caller's state alone", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: failure leaves the caller's state alone", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const Vec3<S> before(0, 0, 1);
   SO3<S> R;
@@ -253,7 +255,7 @@ TEMPLATE_TEST_CASE("relative pose: failure leaves the caller's state alone", "",
   CHECK(refine_relative_pose<S>(good, R, zero, {}).status == Status::kDegenerate);
 }
 
-TEMPLATE_TEST_CASE("relative pose: equal seeds give equal bits", "", float, double) {
+TEMPLATE_TEST_CASE("relative pose: equal seeds give equal bits", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   const auto matches = make_two_views({.mismatches = 0.3, .baseline = 0.5}, 3).as<S>();
   SO3<S> Ra, Rb;
@@ -264,8 +266,8 @@ TEMPLATE_TEST_CASE("relative pose: equal seeds give equal bits", "", float, doub
   CHECK(Ra.matrix() == Rb.matrix());
 }
 
-TEMPLATE_TEST_CASE("relative pose: whatever the input the answer is finite or the state is left", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("relative pose: whatever the input the answer is finite or the state is left", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   const TwoViews views = make_two_views({.mismatches = 0.3, .baseline = 0.5}, 4);
   const SO3<S> R_before = views.R_10.template cast<S>();

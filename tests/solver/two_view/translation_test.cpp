@@ -7,6 +7,7 @@
 #include "sslam/solver/two_view/translation.hpp"
 #include "support/catch.hpp"
 #include "support/spoiled_input.hpp"
+#include "support/test_scalars.hpp"
 
 namespace sslam {
 namespace {
@@ -50,7 +51,8 @@ int count_status(const TwoViewOptions& options, Status status) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("translation: the predicted accuracy is reached without mismatches", "", float, double) {
+TEMPLATE_TEST_CASE("translation: the predicted accuracy is reached without mismatches", "",
+                   SSLAM_TEST_SCALARS) {
   for (const double baseline : {0.1, 0.3, 1.0}) {
     const TranslationScore s = score<TestType>({.baseline = baseline});
     CAPTURE(baseline, s.mean_chi2, s.worst_deg);
@@ -60,7 +62,7 @@ TEMPLATE_TEST_CASE("translation: the predicted accuracy is reached without misma
   }
 }
 
-TEMPLATE_TEST_CASE("translation: half of the matches may be wrong", "", float, double) {
+TEMPLATE_TEST_CASE("translation: half of the matches may be wrong", "", SSLAM_TEST_SCALARS) {
   for (const double mismatches : {0.3, 0.5}) {
     const TranslationScore s = score<TestType>({.mismatches = mismatches, .baseline = 0.3});
     CAPTURE(mismatches, s.mean_chi2, s.worst_deg);
@@ -70,7 +72,7 @@ TEMPLATE_TEST_CASE("translation: half of the matches may be wrong", "", float, d
   }
 }
 
-TEMPLATE_TEST_CASE("translation: exact matches give the exact direction", "", float, double) {
+TEMPLATE_TEST_CASE("translation: exact matches give the exact direction", "", SSLAM_TEST_SCALARS) {
   const TwoViews views = make_two_views({.noise = 0, .baseline = 0.5}, 3);
   const auto answer = estimate<TestType>(views);
   REQUIRE(usable(answer.status));
@@ -80,7 +82,7 @@ TEMPLATE_TEST_CASE("translation: exact matches give the exact direction", "", fl
   CHECK(answer.front_share == 1);
 }
 
-TEMPLATE_TEST_CASE("translation: flags tell matches from mismatches", "", float, double) {
+TEMPLATE_TEST_CASE("translation: flags tell matches from mismatches", "", SSLAM_TEST_SCALARS) {
   const TwoViews views = make_two_views({.mismatches = 0.4}, 5);
   std::vector<std::uint8_t> inliers(views.matches.size());
   const auto answer = estimate<TestType>(views, inliers);
@@ -96,7 +98,7 @@ TEMPLATE_TEST_CASE("translation: flags tell matches from mismatches", "", float,
   CHECK(answer.inliers == std::count(inliers.begin(), inliers.end(), 1));
 }
 
-TEMPLATE_TEST_CASE("translation: far points alone are low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("translation: far points alone are low parallax", "", SSLAM_TEST_SCALARS) {
   for (const double mismatches : {0.0, 0.3, 0.5})
     for (const double noise : {0.0, 1.0}) {
       const TwoViewOptions o{.mismatches = mismatches, .noise = noise, .scene = TwoViewOptions::kInfinite};
@@ -105,14 +107,14 @@ TEMPLATE_TEST_CASE("translation: far points alone are low parallax", "", float, 
     }
 }
 
-TEMPLATE_TEST_CASE("translation: a camera that stands still is low parallax", "", float, double) {
+TEMPLATE_TEST_CASE("translation: a camera that stands still is low parallax", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   auto matches = make_two_views({.noise = 0}, 3).as<S>();
   for (auto& match : matches) match.ray1 = match.ray0;
   CHECK(translation_from_rotation<S>(matches, SO3<S>(), {}, 1).status == Status::kLowParallax);
 }
 
-TEMPLATE_TEST_CASE("translation: points on one epipolar plane are degenerate", "", float, double) {
+TEMPLATE_TEST_CASE("translation: points on one epipolar plane are degenerate", "", SSLAM_TEST_SCALARS) {
   CHECK(count_status<TestType>({.noise = 0, .scene = TwoViewOptions::kCollinear}, Status::kDegenerate) ==
         kTranslationTrials);
   CHECK(count_status<TestType>({.scene = TwoViewOptions::kCollinear}, Status::kDegenerate) >=
@@ -121,12 +123,13 @@ TEMPLATE_TEST_CASE("translation: points on one epipolar plane are degenerate", "
   CHECK(count_status<TestType>(o, Status::kOk) <= 1);
 }
 
-TEMPLATE_TEST_CASE("translation: unrelated matches have no consensus", "", float, double) {
+TEMPLATE_TEST_CASE("translation: unrelated matches have no consensus", "", SSLAM_TEST_SCALARS) {
   CHECK(count_status<TestType>({.mismatches = 1}, Status::kOk) == 0);
   CHECK(count_status<TestType>({.mismatches = 1}, Status::kNoConsensus) >= kTranslationTrials - 6);
 }
 
-TEMPLATE_TEST_CASE("translation: few distant points among near ones do not count alike", "", float, double) {
+TEMPLATE_TEST_CASE("translation: few distant points among near ones do not count alike", "",
+                   SSLAM_TEST_SCALARS) {
   // Four in five points far away: their flow is noise, and must not drown the near ones.
   const TwoViews near = make_two_views({.matches = 100, .baseline = 0.5}, 8);
   TwoViews views = make_two_views({.matches = 400, .scene = TwoViewOptions::kInfinite}, 8);
@@ -149,7 +152,7 @@ TEMPLATE_TEST_CASE("translation: few distant points among near ones do not count
   CHECK(angle_deg(answer.t_10.template cast<double>(), views.t_10) < 2);
 }
 
-TEMPLATE_TEST_CASE("translation: an uncertain rotation widens the gate", "", float, double) {
+TEMPLATE_TEST_CASE("translation: an uncertain rotation widens the gate", "", SSLAM_TEST_SCALARS) {
   TwoViews views = make_two_views({.baseline = 1}, 11);
   views.R_10 = views.R_10.retract(Vec3<double>(0.004, -0.003, 0.005));
   const auto matches = views.as<TestType>();
@@ -164,7 +167,7 @@ TEMPLATE_TEST_CASE("translation: an uncertain rotation widens the gate", "", flo
   CHECK(angle_deg(open.t_10.template cast<double>(), views.t_10) < 3);
 }
 
-TEMPLATE_TEST_CASE("translation: bad input is refused and leaves the flags alone", "", float, double) {
+TEMPLATE_TEST_CASE("translation: bad input is refused and leaves the flags alone", "", SSLAM_TEST_SCALARS) {
   using S = TestType;
   TwoViews views = make_two_views({}, 2);
   std::vector<std::uint8_t> inliers(views.matches.size(), 7);
@@ -187,7 +190,7 @@ TEMPLATE_TEST_CASE("translation: bad input is refused and leaves the flags alone
   CHECK(untouched());
 }
 
-TEMPLATE_TEST_CASE("translation: equal seeds give equal bits", "", float, double) {
+TEMPLATE_TEST_CASE("translation: equal seeds give equal bits", "", SSLAM_TEST_SCALARS) {
   const TwoViews views = make_two_views({.mismatches = 0.4}, 9);
   const auto a = estimate<TestType>(views, {}, 42), b = estimate<TestType>(views, {}, 42);
   REQUIRE(usable(a.status));
@@ -197,8 +200,8 @@ TEMPLATE_TEST_CASE("translation: equal seeds give equal bits", "", float, double
   CHECK(angle_deg(a.t_10.template cast<double>(), c.t_10.template cast<double>()) < 0.5);
 }
 
-TEMPLATE_TEST_CASE("translation: whatever the input the answer is finite or the flags are left", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("translation: whatever the input the answer is finite or the flags are left", "",
+                   SSLAM_TEST_SCALARS) {
   using S = TestType;
   const TwoViews views = make_two_views({.mismatches = 0.3}, 4);
   for (std::uint64_t seed = 0; seed < 300; ++seed) {

@@ -18,6 +18,7 @@
 #include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/bag_topics.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::io {

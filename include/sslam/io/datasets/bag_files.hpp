@@ -16,11 +16,6 @@
 
 namespace sslam::io {
 
-// Which topics to take; empty: found.
-struct BagTopics {
-  std::string images, depth;
-};
-
 namespace bag_detail {
 
 [[nodiscard]] inline std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder,

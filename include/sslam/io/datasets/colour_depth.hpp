@@ -15,6 +15,7 @@
 
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/image_folder.hpp"
 #include "sslam/io/datasets/numbered_poses.hpp"
 #include "sslam/io/datasets/pose_files.hpp"

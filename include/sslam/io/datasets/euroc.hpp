@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/file_list.hpp"
 #include "sslam/io/datasets/image_folder.hpp"
 #include "sslam/io/files/files.hpp"

@@ -10,6 +10,7 @@
 
 #include "sslam/io/datasets/counts_frames.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
 

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/name_stamps.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/stamp_unit.hpp"
 
 namespace sslam::io {
-
-inline constexpr double kDefaultFrameRate = 30;
 
 // Stamps come from the names when each is one, else from the position and the frame rate.
 [[nodiscard]] inline Dataset frames_from_images(const std::filesystem::path& root,

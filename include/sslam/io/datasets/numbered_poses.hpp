@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"

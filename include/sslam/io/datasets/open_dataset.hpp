@@ -24,10 +24,6 @@
 
 namespace sslam::io {
 
-struct OpenOptions {
-  double frame_rate = kDefaultFrameRate;  // frames a second, for images whose names are no stamps
-};
-
 // What a folder can be, in the order in which it is tried.
 struct FolderLayout {
   using Path = std::filesystem::path;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/files/bad_entries.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/text.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/pose_files.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/file_list.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/trajectories/transforms.hpp"

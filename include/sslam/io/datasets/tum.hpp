@@ -12,6 +12,7 @@
 
 #include "sslam/io/datasets/counts_frames.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/file_list.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"

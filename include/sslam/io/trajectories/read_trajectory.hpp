@@ -26,12 +26,6 @@
 
 namespace sslam::io {
 
-struct PoseFile {
-  Trajectory trajectory;    // by increasing stamp, in seconds
-  bool counted = false;     // its rows have no stamps and no times: the stamps are their numbers, from 0
-  std::size_t no_pose = 0;  // rows that mean "no pose here", left out
-};
-
 namespace trajectory_detail {
 
 // Whether w stands before x where a head of the file names the quaternion's parts; nothing where none does.

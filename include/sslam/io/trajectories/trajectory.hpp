@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -23,6 +24,13 @@ struct StampedPose {
 };
 
 using Trajectory = std::vector<StampedPose>;
+
+// What a file of poses holds.
+struct PoseFile {
+  Trajectory trajectory;    // by increasing stamp, in seconds
+  bool counted = false;     // its rows have no stamps and no times: the stamps are their numbers, from 0
+  std::size_t no_pose = 0;  // rows that mean "no pose here", left out
+};
 
 [[nodiscard]] inline std::vector<double> stamps_of(const Trajectory& trajectory) {
   std::vector<double> stamps;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/input/open_images.hpp"
+
+#include "cli/input/bag_reader.hpp"
+#include "cli/input/image_file.hpp"
+#include "sslam/io/datasets/open_dataset.hpp"
+
+namespace sslam::cli {
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+io::Dataset dataset_at(const std::filesystem::path& path) {
+  return io::open_dataset(path);
+}
+
+std::string_view layout_name(io::Layout layout) {
+  return io::name(layout);
+}
+
+io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions& options,
+                        const io::BagTopics& topics, std::int64_t at_most) {
+  io::Dataset dataset = io::open_dataset(path, options);
+  const bool bag = dataset.layout == io::Layout::kBag;
+  if (!bag && !(topics.images.empty() && topics.depth.empty()))
+    throw Error(path.string() + ": is no bag, so it has no topics; leave --topic and --depth-topic out");
+  if (bag) list_bag_frames(dataset, topics);
+  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, at_most);
+  return dataset;
+}
+
+io::Dataset open_images(const std::filesystem::path& path, const io::BagTopics& topics) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    if (io::is_image_name(path))
+      return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
+    if (!io::is_video_name(path) && !io::is_bag_name(path))
+      throw Error(
+          path.string() +
+          ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");
+  }
+  return open_frames(path, {}, topics);
+}
+
+}  // namespace sslam::cli
