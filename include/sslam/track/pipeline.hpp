@@ -90,7 +90,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     const bool loop_closed = follow_map(upkeep.finish(world_.map));
     World<S>* largest = atlas.largest();
     if (largest != nullptr && Atlas<S>::smaller(world_, *largest)) Worlds::change_places(*largest);
-    final_pass.run(world_.map, fallback, refinement, world_.log);
+    final_pass.run(world_.map, fallback, refinement, relocalisation, world_.log);
     return loop_closed;
   }
 

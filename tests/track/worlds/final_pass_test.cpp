@@ -43,10 +43,39 @@ TEST_CASE("The final pass gives a pose to frames that had none, and keeps the ot
   const std::size_t known = log.entries().size();
   FinalPass<double> pass;
   for (std::size_t k = 0; k < simulation.size(); ++k) pass.keep(simulation.frame(k));
-  pass.run(map, pipeline.fallback, pipeline.refinement, log);
+  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   REQUIRE(log.entries().size() == known + 3);
   for (std::size_t k = 0; k < log.entries().size(); ++k)
     REQUIRE(log.entries()[k].index == static_cast<std::int64_t>(k) + log.entries()[0].index);
+}
+
+TEST_CASE("The final pass recognises frames from which no neighbour with a pose is near") {
+  Simulation simulation(walk(60));
+  presets::Structure<double> pipeline;
+  track_all(pipeline, simulation);
+  Map<double> map = pipeline.map();
+  const TrajectoryLog<double>& tracked = pipeline.trajectory();
+  constexpr std::int64_t kCut = 20, kDark = 12;
+  TrajectoryLog<double> log;
+  for (const auto& entry : tracked.entries())
+    if (entry.index >= kCut + kDark)
+      log.add(map, entry.index, entry.stamp, entry.reference, tracked.pose(map, entry));
+  const std::size_t known = log.entries().size();
+  FinalPass<double> pass;
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    const bool dark = k >= kCut && k < kCut + kDark;
+    pass.keep(dark ? simulation.dark_frame(k) : simulation.frame(k));
+  }
+  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
+  REQUIRE(log.entries().size() == known + kCut);
+  for (const auto& entry : log.entries()) {
+    CHECK((entry.index < kCut || entry.index >= kCut + kDark));
+    const auto* before = tracked.find(entry.index);
+    if (before == nullptr) continue;
+    const SE3<double> off = log.pose(map, entry) * tracked.pose(pipeline.map(), *before).inverse();
+    CHECK(off.translation.norm() < 0.02);
+    CHECK(off.rotation.log().norm() < radians(1.0));
+  }
 }
 
 TEST_CASE("A frame that shows nothing gets no pose from the final pass") {
@@ -78,8 +107,8 @@ TEST_CASE("An empty map, or a run without a frame, has a final pass without effe
   TrajectoryLog<double> log;
   presets::Structure<double> pipeline;
   FinalPass<double> pass;
-  pass.run(map, pipeline.fallback, pipeline.refinement, log);
+  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   pass.keep(Frame<double>());
-  pass.run(map, pipeline.fallback, pipeline.refinement, log);
+  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   CHECK(log.entries().empty());
 }

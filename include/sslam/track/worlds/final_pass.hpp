@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The final pass, after the last frame: the whole map is adjusted at once, then every frame is tracked again
 // in it. A frame keeps the errors of the young map that it was tracked in otherwise, and one that had no pose
-// may get one. Of a rolling shutter, whose read-out time is told or found, features are moved to the moment
-// of the middle row, by the motion that the trajectory tells.
+// may get one, from its neighbours or by the place that it shows. Of a rolling shutter, whose read-out time
+// is told or found, features are moved to the moment of the middle row, by the motion that the trajectory
+// tells.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map_adjustment.hpp"
 #include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/worlds/read_out_search.hpp"
 #include "sslam/track/worlds/rolling_shutter.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
@@ -73,7 +75,8 @@ class FinalPass {
 
   // The map has its last keyframe. Poses go into the log; the frames are forgotten.
   template <class Fallback, class Refinement>
-  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, TrajectoryLog<S>& log) {
+  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, Relocalisation<S>& relocalisation,
+           TrajectoryLog<S>& log) {
     read_out_ = options.read_out;
     if (!map.empty() && !frames_.empty()) {
       log.sort();
@@ -93,6 +96,7 @@ class FinalPass {
       previous_.reset();
       for (std::size_t i = frames_.size(); i-- > 0;)
         if (log.find(frames_[i].index) == nullptr) track(i, -1, map, fallback, refinement, log);
+      find_lost(map, fallback, refinement, relocalisation, log);
     }
     frames_.clear();
     motions_.clear();
@@ -136,6 +140,31 @@ class FinalPass {
       last_.read_back(frame_);
     }
     if (!straightens(i)) std::swap(frames_[i], frame_.frame);
+  }
+
+  // Frames that no sweep has come to, such as those of a map that was given up: what they show may be in the
+  // finished map. From each that is recognised its neighbours are tracked.
+  template <class Fallback, class Refinement>
+  void find_lost(Map<S>& map, Fallback& fallback, Refinement& refinement, Relocalisation<S>& relocalisation,
+                 TrajectoryLog<S>& log) {
+    const auto lost = [&](std::size_t i) { return log.find(frames_[i].index) == nullptr; };
+    KeyframeId reference = map.surviving(map.keyframes.front().id);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      if (!lost(i)) continue;
+      frame_.adopt(frames_[i]);
+      const PoseEstimate<S> estimate = relocalisation.find(
+          map, fallback, refinement, [] { return true; }, frame_, reference);
+      if (estimate.ok()) {
+        log.set(map, frame_.frame.index, frame_.frame.stamp, reference, frame_.cam_from_world);
+        previous_ = Previous{i, reference, frame_.cam_from_world};
+        last_.read_back(frame_);
+      }
+      std::swap(frames_[i], frame_.frame);
+      if (!estimate.ok()) continue;
+      for (std::size_t j = i + 1; j < frames_.size() && lost(j); ++j)
+        track(j, 1, map, fallback, refinement, log);
+      for (std::size_t j = i; j-- > 0 && lost(j);) track(j, -1, map, fallback, refinement, log);
+    }
   }
 
   static bool is_keyframe(const Keyframe<S>& keyframe, const Frame<S>& frame) noexcept {
@@ -229,7 +258,7 @@ struct NoFinalPass {
   [[nodiscard]] double read_out() const noexcept { return 0; }
   void keep(const Frame<S>&) noexcept {}
   template <class Fallback, class Refinement>
-  void run(Map<S>&, Fallback&, Refinement&, TrajectoryLog<S>&) noexcept {}
+  void run(Map<S>&, Fallback&, Refinement&, Relocalisation<S>&, TrajectoryLog<S>&) noexcept {}
 };
 static_assert(FinalStage<NoFinalPass<double>, double>);
 
