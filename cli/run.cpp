@@ -149,7 +149,7 @@ void add_output_options(CLI::App& command, RunSettings& s) {
   command.add_flag(
       "--dense", s.dense,
       "Write the walls, floors and other planes with the images on them: model.glb for any viewer, "
-      "model.ply");
+      "model.obj, model.ply");
   command.add_flag_callback(
       "--no-report", [&s] { s.report = false; }, "Leave report.html and the pictures for it out");
   command

@@ -2,9 +2,11 @@
 #include "cli/dense/model_files.hpp"
 
 #include <cstdint>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,15 +47,38 @@ Mesh mesh_of(const dense::DenseModel& model, const Atlas& atlas) {
   return mesh;
 }
 
+std::vector<unsigned char> jpeg_of(const Atlas& atlas) {
+  constexpr int kQuality = 92;
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", atlas.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  return jpeg;
+}
+
+void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
+  io::OutputFile file(path);
+  file.stream() << bytes;
+  file.commit();
+}
+
+// One row of an OBJ file.
+template <int N>
+void append_row(std::string& text, const char* key, const Eigen::Matrix<float, N, 1>& values) {
+  text += key;
+  for (const float value : values) {
+    char number[32];
+    std::snprintf(number, sizeof number, " %.6g", static_cast<double>(value));
+    text += number;
+  }
+  text += '\n';
+}
+
 }  // namespace
 
 void write_glb(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
                const Vec3<double>& up) {
   using namespace gltf_names;
-  constexpr int kQuality = 92;
   const Mesh mesh = mesh_of(model, atlas);
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", atlas.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  const std::vector<unsigned char> jpeg = jpeg_of(atlas);
   GltfBuffer buffer;
   const std::size_t places = buffer.add(bytes_of(mesh.places), kArrayBuffer),
                     normals = buffer.add(bytes_of(mesh.normals), kArrayBuffer),
@@ -84,6 +109,34 @@ void write_glb(const std::filesystem::path& path, const dense::DenseModel& model
                {"images", list({{"bufferView", image}, {"mimeType", "image/jpeg"}})},
                {"accessors", accessors}};
   write_gltf(path, std::move(gltf), buffer);
+}
+
+void write_obj(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
+               const Vec3<double>& up) {
+  const Mesh mesh = mesh_of(model, atlas);
+  const std::string name = path.stem().string();
+  const Mat3<float> turn =
+      Eigen::Quaterniond::FromTwoVectors(up, Vec3<double>::UnitY()).toRotationMatrix().cast<float>();
+  std::string obj =
+      "# planes of a map with the images on them; y is up\nmtllib " + name + ".mtl\nusemtl planes\n";
+  for (const Vec3<float>& place : mesh.places) append_row<3>(obj, "v", turn * place);
+  for (const Vec3<float>& normal : mesh.normals) append_row<3>(obj, "vn", turn * normal);
+  for (const Vec2<float>& texture : mesh.textures)  // from the lower left corner
+    append_row<2>(obj, "vt", {texture.x(), 1 - texture.y()});
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    obj += 'f';
+    for (std::size_t k = i; k < i + 3; ++k) {
+      const std::string number = std::to_string(mesh.indices[k] + 1);
+      obj += ' ' + number + '/' + number + '/' + number;
+    }
+    obj += '\n';
+  }
+  const std::vector<unsigned char> jpeg = jpeg_of(atlas);
+  const std::filesystem::path folder = path.parent_path();
+  write_bytes(folder / (name + ".jpg"), {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+  write_bytes(folder / (name + ".mtl"),
+              "newmtl planes\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 0\nmap_Kd " + name + ".jpg\n");
+  write_bytes(path, obj);
 }
 
 void write_model_ply(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A textured model as files: binary glTF 2.0, and PLY with a colour at every vertex.
+// A textured model as files: binary glTF 2.0, Wavefront OBJ, and PLY with a colour at every vertex.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,11 @@ namespace sslam::cli {
 // One mesh, seen from the side from which it was filmed, unlit, in the coordinates of the map; a node turns
 // `up` (a unit vector of the map) to glTF's +y. Throws Error when it cannot be written.
 void write_glb(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
+               const Vec3<double>& up);
+
+// The same mesh, turned so that `up` is +y, with its material file and texture (NAME.mtl, NAME.jpg) beside
+// NAME.obj. Throws Error.
+void write_obj(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
                const Vec3<double>& up);
 
 // The cells of all planes as squares; their corners are a coloured cloud. Binary. Throws Error.

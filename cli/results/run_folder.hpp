@@ -23,14 +23,17 @@ inline constexpr const char* kReportFile = "report.html";
 inline constexpr const char* kCameraFoundFile = "camera_found.yaml";
 inline constexpr const char* kModelFile = "model.glb";  // of `--dense`
 inline constexpr const char* kModelPlyFile = "model.ply";
+inline constexpr const char* kModelObjFile = "model.obj";  // with the next two beside it
+inline constexpr const char* kModelMaterialFile = "model.mtl";
+inline constexpr const char* kModelTextureFile = "model.jpg";
 inline constexpr const char* kTopViewFile = "topview.svg";           // of a run that tracked something
 inline constexpr const char* kCheckpointFile = ".sslam-checkpoint";  // of a run that has not ended
 inline constexpr std::array kCheckpointFiles{kCheckpointFile, ".sslam-checkpoint.part"};
 
 // Those that a run need not write.
-inline constexpr std::array kOptionalFiles{"map.sslam", kColourFile,   kTruthFile,
-                                           kViewFile,   kReportFile,   kCameraFoundFile,
-                                           kModelFile,  kModelPlyFile, kTopViewFile};
+inline constexpr std::array kOptionalFiles{
+    "map.sslam", kColourFile,   kTruthFile,    kViewFile,          kReportFile,       kCameraFoundFile,
+    kModelFile,  kModelPlyFile, kModelObjFile, kModelMaterialFile, kModelTextureFile, kTopViewFile};
 
 struct RunFolder {
   std::string name;  // of the folder, for people

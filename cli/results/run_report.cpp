@@ -244,9 +244,9 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
     std::printf("shutter          rolling: %.0f ms from the first row to the last\n", 1e3 * outcome.read_out);
   print_scale(outcome, evaluation, metric);
   if (outcome.dense && !outcome.dense->empty())
-    std::printf("dense            %zu planes from %zu keyframes in %.1f s: %s, %s\n",
+    std::printf("dense            %zu planes from %zu keyframes in %.1f s: %s, %s, %s\n",
                 outcome.dense->model.planes.size(), outcome.dense->keyframes, outcome.dense->seconds,
-                kModelFile, kModelPlyFile);
+                kModelFile, kModelObjFile, kModelPlyFile);
   if (evaluation) std::fputs(evaluation_table(*evaluation).c_str(), stdout);
 }
 

@@ -104,7 +104,8 @@ void bind_datasets(nb::module_& module) {
       .def_prop_ro("camera", [](const Recording& r) { return r.camera.camera; })
       .def_prop_ro("camera_source", [](const Recording& r) { return r.camera.source; })
       .def_prop_ro("depth_factor", [](const Recording& r) { return r.camera.depth_factor; })
-      .def_prop_ro("layout", [](const Recording& r) { return std::string(cli::layout_name(r.dataset.layout)); })
+      .def_prop_ro("layout",
+                   [](const Recording& r) { return std::string(cli::layout_name(r.dataset.layout)); })
       .def_prop_ro("messages", [](const Recording& r) { return r.messages; })
       .def_prop_ro("seconds_per_stamp", [](const Recording& r) { return r.dataset.seconds_per_stamp; })
       .def_prop_ro("has_depth",

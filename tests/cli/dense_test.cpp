@@ -59,7 +59,29 @@ TEST_CASE("run --dense writes a model that viewers can open, and a run without i
   const std::size_t body = ply.find("end_header\n") + 11;
   REQUIRE(ply.size() - body == 15 * count_of("vertex") + 17 * count_of("face"));
 
+  const std::string obj = text_of(copy.out / "model.obj");
+  const auto rows_of = [&](const std::string& key) {
+    std::size_t rows = 0;
+    for (std::size_t at = obj.find("\n" + key + " "); at != std::string::npos;
+         at = obj.find("\n" + key + " ", at + 1))
+      ++rows;
+    return rows;
+  };
+  for (const char* key : {"v", "vn", "vt"}) CHECK(rows_of(key) == vertices);
+  CHECK(rows_of("f") == indices / 3);
+  // The same triangles as in model.glb, counted from one.
+  std::string first = "\nf";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string number = std::to_string(word_at(triangles, 4 * i) + 1);
+    first += ' ' + number + '/' + number + '/' + number;
+  }
+  CHECK(obj.find("\nf") == obj.find(first + "\n"));
+  CHECK(obj.find("\nmtllib model.mtl\n") != std::string::npos);
+  CHECK(text_of(copy.out / "model.mtl").find("map_Kd model.jpg\n") != std::string::npos);
+  CHECK(text_of(copy.out / "model.jpg") == jpeg);
+
   REQUIRE(copy.run("--no-report").code == 0);
+  for (const char* file : {"model.obj", "model.mtl", "model.jpg"}) CHECK_FALSE(fs::exists(copy.out / file));
   REQUIRE_FALSE(fs::exists(copy.out / "model.glb"));
   REQUIRE_FALSE(fs::exists(copy.out / "model.ply"));
 }
