@@ -16,6 +16,7 @@
 #include "sslam/track/slots.hpp"
 #include "sslam/track/upkeep/immediate_upkeep.hpp"
 #include "sslam/track/worlds/final_pass.hpp"
+#include "sslam/track/worlds/no_final_pass.hpp"
 
 namespace sslam::presets {
 

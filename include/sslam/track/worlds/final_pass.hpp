@@ -252,14 +252,4 @@ class FinalPass {
 };
 static_assert(FinalStage<FinalPass<double>, double>);
 
-// Poses and map stay as tracking and mapping left them.
-template <Scalar S>
-struct NoFinalPass {
-  [[nodiscard]] double read_out() const noexcept { return 0; }
-  void keep(const Frame<S>&) noexcept {}
-  template <class Fallback, class Refinement>
-  void run(Map<S>&, Fallback&, Refinement&, Relocalisation<S>&, TrajectoryLog<S>&) noexcept {}
-};
-static_assert(FinalStage<NoFinalPass<double>, double>);
-
 }  // namespace sslam

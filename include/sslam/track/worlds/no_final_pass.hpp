@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// No final pass: poses and map stay as tracking and mapping left them.
+#pragma once
+
+#include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/localise/relocalisation.hpp"
+#include "sslam/track/worlds/trajectory_log.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+struct NoFinalPass {
+  [[nodiscard]] double read_out() const noexcept { return 0; }
+  void keep(const Frame<S>&) noexcept {}
+  template <class Fallback, class Refinement>
+  void run(Map<S>&, Fallback&, Refinement&, Relocalisation<S>&, TrajectoryLog<S>&) noexcept {}
+};
+static_assert(FinalStage<NoFinalPass<double>, double>);
+
+}  // namespace sslam
