@@ -30,7 +30,7 @@ std::vector<double> read_stamps(const fs::path& file) {
 void take_trajectory(const fs::path& file, Estimate& estimate) {
   io::Warnings ignored;
   try {
-    estimate.trajectory = load_estimate(file, ignored).trajectory;
+    estimate.trajectory = load_stamped(file, ignored);
   } catch (const Error& error) {
     estimate.failed = estimate.broken = true;
     estimate.reason = error.what();
@@ -182,7 +182,7 @@ ResultSequence read_sequence(const fs::path& folder, const Plan& plan, const std
   io::Warnings ignored;
   std::error_code none;
   const fs::path truth = part / truth_file_of(name);
-  if (fs::exists(truth, none)) sequence.truth = load_estimate(truth, ignored).trajectory;
+  if (fs::exists(truth, none)) sequence.truth = load_stamped(truth, ignored);
   return sequence;
 }
 

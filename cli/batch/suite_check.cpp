@@ -118,7 +118,7 @@ class SuiteCheck {
       for (const auto& [sequence, files] : reference.trajectories) {
         for (const std::filesystem::path& file : files) {
           io::Warnings warnings;
-          (void)load_estimate(file, warnings);
+          (void)load_stamped(file, warnings);
           print_warnings(warnings);
         }
       }

@@ -120,8 +120,9 @@ DenseResult make_dense(const Map<double>& map, const KeyframePictures& pictures,
 
 void write_dense(const std::filesystem::path& folder, const DenseResult& result) {
   if (result.empty()) return;
-  write_glb(folder / kModelFile, result.model, result.atlas, result.up);
-  write_obj(folder / kModelObjFile, result.model, result.atlas, result.up);
+  const TexturedMesh mesh = textured_mesh(result.model, result.atlas);
+  write_glb(folder / kModelFile, mesh, result.up);
+  write_obj(folder / kModelObjFile, mesh, result.up);
   write_model_ply(folder / kModelPlyFile, result.model, result.atlas);
 }
 

@@ -18,14 +18,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Mesh {
-  std::vector<Vec3<float>> places, normals;
-  std::vector<Vec2<float>> textures;  // 0 to 1 over the atlas, from its upper left corner
-  std::vector<std::uint32_t> indices;
-};
+void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
+  io::OutputFile file(path);
+  file.stream() << bytes;
+  file.commit();
+}
 
-Mesh mesh_of(const dense::DenseModel& model, const Atlas& atlas) {
-  Mesh mesh;
+// One row of an OBJ file.
+template <int N>
+void append_row(std::string& text, const char* key, const Eigen::Matrix<float, N, 1>& values) {
+  text += key;
+  for (const float value : values) {
+    char number[32];
+    std::snprintf(number, sizeof number, " %.6g", static_cast<double>(value));
+    text += number;
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+TexturedMesh textured_mesh(const dense::DenseModel& model, const Atlas& atlas) {
+  constexpr int kQuality = 92;
+  TexturedMesh mesh;
+  cv::imencode(".jpg", atlas.image, mesh.jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   for (const Chart& chart : atlas.charts) {
     const dense::DensePlane& plane = model.planes[chart.plane];
     const dense::Triangulator cut(plane.polygons[chart.polygon]);
@@ -47,44 +63,14 @@ Mesh mesh_of(const dense::DenseModel& model, const Atlas& atlas) {
   return mesh;
 }
 
-std::vector<unsigned char> jpeg_of(const Atlas& atlas) {
-  constexpr int kQuality = 92;
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", atlas.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  return jpeg;
-}
-
-void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
-  io::OutputFile file(path);
-  file.stream() << bytes;
-  file.commit();
-}
-
-// One row of an OBJ file.
-template <int N>
-void append_row(std::string& text, const char* key, const Eigen::Matrix<float, N, 1>& values) {
-  text += key;
-  for (const float value : values) {
-    char number[32];
-    std::snprintf(number, sizeof number, " %.6g", static_cast<double>(value));
-    text += number;
-  }
-  text += '\n';
-}
-
-}  // namespace
-
-void write_glb(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
-               const Vec3<double>& up) {
+void write_glb(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up) {
   using namespace gltf_names;
-  const Mesh mesh = mesh_of(model, atlas);
-  const std::vector<unsigned char> jpeg = jpeg_of(atlas);
   GltfBuffer buffer;
   const std::size_t places = buffer.add(bytes_of(mesh.places), kArrayBuffer),
                     normals = buffer.add(bytes_of(mesh.normals), kArrayBuffer),
                     textures = buffer.add(bytes_of(mesh.textures), kArrayBuffer),
                     triangles = buffer.add(bytes_of(mesh.indices), kIndexBuffer),
-                    image = buffer.add({jpeg.begin(), jpeg.end()}, 0);
+                    image = buffer.add({mesh.jpeg.begin(), mesh.jpeg.end()}, 0);
   const std::size_t vertices = mesh.places.size();
   const Json accessors = {
       places_accessor(places, mesh.places),
@@ -111,12 +97,9 @@ void write_glb(const std::filesystem::path& path, const dense::DenseModel& model
   write_gltf(path, std::move(gltf), buffer);
 }
 
-void write_obj(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
-               const Vec3<double>& up) {
-  const Mesh mesh = mesh_of(model, atlas);
+void write_obj(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up) {
   const std::string name = path.stem().string();
-  const Mat3<float> turn =
-      Eigen::Quaterniond::FromTwoVectors(up, Vec3<double>::UnitY()).toRotationMatrix().cast<float>();
+  const Mat3<float> turn = turn_y_up(up).toRotationMatrix().cast<float>();
   std::string obj =
       "# planes of a map with the images on them; y is up\nmtllib " + name + ".mtl\nusemtl planes\n";
   for (const Vec3<float>& place : mesh.places) append_row<3>(obj, "v", turn * place);
@@ -131,9 +114,8 @@ void write_obj(const std::filesystem::path& path, const dense::DenseModel& model
     }
     obj += '\n';
   }
-  const std::vector<unsigned char> jpeg = jpeg_of(atlas);
   const std::filesystem::path folder = path.parent_path();
-  write_bytes(folder / (name + ".jpg"), {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+  write_bytes(folder / (name + ".jpg"), {reinterpret_cast<const char*>(mesh.jpeg.data()), mesh.jpeg.size()});
   write_bytes(folder / (name + ".mtl"),
               "newmtl planes\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 0\nmap_Kd " + name + ".jpg\n");
   write_bytes(path, obj);

@@ -2,21 +2,31 @@
 // A textured model as files: binary glTF 2.0, Wavefront OBJ, and PLY with a colour at every vertex.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "cli/dense/plane_texture.hpp"
 
 namespace sslam::cli {
 
-// One mesh, seen from the side from which it was filmed, unlit, in the coordinates of the map; a node turns
-// `up` (a unit vector of the map) to glTF's +y. Throws Error when it cannot be written.
-void write_glb(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
-               const Vec3<double>& up);
+// Triangles that are seen from the side from which they were filmed, in the coordinates of the map.
+struct TexturedMesh {
+  std::vector<Vec3<float>> places, normals;
+  std::vector<Vec2<float>> textures;  // 0 to 1 over the image, from its upper left corner
+  std::vector<std::uint32_t> indices;
+  std::vector<unsigned char> jpeg;
+};
+
+[[nodiscard]] TexturedMesh textured_mesh(const dense::DenseModel& model, const Atlas& atlas);
+
+// One mesh, unlit; a node turns `up` (a unit vector of the map) to glTF's +y. Throws Error when it cannot be
+// written.
+void write_glb(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up);
 
 // The same mesh, turned so that `up` is +y, with its material file and texture (NAME.mtl, NAME.jpg) beside
 // NAME.obj. Throws Error.
-void write_obj(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas,
-               const Vec3<double>& up);
+void write_obj(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up);
 
 // The cells of all planes as squares; their corners are a coloured cloud. Binary. Throws Error.
 void write_model_ply(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas);

@@ -74,9 +74,14 @@ class GltfBuffer {
       {"type", "VEC3"},     {"min", {low.x(), low.y(), low.z()}},  {"max", {high.x(), high.y(), high.z()}}};
 }
 
-// The turn from the map to glTF's world, y up, as x, y, z, w.
+// The turn from the map to a world with y up; `up` is a unit vector of the map.
+[[nodiscard]] inline Eigen::Quaterniond turn_y_up(const Vec3<double>& up) {
+  return Eigen::Quaterniond::FromTwoVectors(up, Vec3<double>::UnitY());
+}
+
+// The same as glTF writes it: x, y, z, w.
 [[nodiscard]] inline std::array<double, 4> turn_to_gltf(const Vec3<double>& up) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(up, Vec3<double>::UnitY());
+  const Eigen::Quaterniond q = turn_y_up(up);
   return {q.x(), q.y(), q.z(), q.w()};
 }
 

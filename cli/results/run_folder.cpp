@@ -84,7 +84,7 @@ class Reader {
   }
 
   void take_poses(const char* name, io::Trajectory& poses) {
-    take(name, [&](const fs::path& path) { poses = load_estimate(path, run_.problems).trajectory; });
+    take(name, [&](const fs::path& path) { poses = load_stamped(path, run_.problems); });
   }
 
   fs::path folder_;

@@ -33,8 +33,7 @@ TruthSource from_folder(const std::filesystem::path& folder, FileAxes axes) {
 
 // The dataset whose ground truth the file is; nothing for a file that stands alone.
 std::optional<io::Dataset> dataset_around(const std::filesystem::path& file) {
-  const std::filesystem::path folder =
-      file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  const std::filesystem::path folder = folder_of(file);
   if (file.filename() != "groundtruth.txt" && file.extension() != ".freiburg") return std::nullopt;
   if (!io::is_tum(folder) && !io::has_numbered_images(folder)) return std::nullopt;
   try {
@@ -69,6 +68,10 @@ TruthSource load_truth(const std::filesystem::path& path, FileAxes axes, const s
   source.mirrored = axes == FileAxes::kAuto ? icl_nuim : axes == FileAxes::kYUp;
   if (source.mirrored) io::mirror_y(source.trajectory);
   return source;
+}
+
+io::Trajectory load_stamped(const std::filesystem::path& path, io::Warnings& warnings) {
+  return io::read_trajectory(path, warnings);
 }
 
 io::PoseFile load_estimate(const std::filesystem::path& path, io::Warnings& warnings,

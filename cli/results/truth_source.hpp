@@ -28,6 +28,9 @@ struct TruthSource {
 [[nodiscard]] TruthSource load_truth(const std::filesystem::path& path, FileAxes axes,
                                      const std::filesystem::path& times = {});
 
+// io::read_trajectory: poses whose stamps are known. Throws Error, also where they are not.
+[[nodiscard]] io::Trajectory load_stamped(const std::filesystem::path& path, io::Warnings& warnings);
+
 // As read_pose_file, also for the folder of a run.
 [[nodiscard]] io::PoseFile load_estimate(const std::filesystem::path& path, io::Warnings& warnings,
                                          const std::filesystem::path& times = {});

@@ -7,6 +7,7 @@ set(camera "%YAML:1.0\n---\nCamera.fx: 260\nCamera.fy: 260\nCamera.cx: 159.5\nCa
 file(WRITE ${folder}/images/camera.yaml "${camera}")
 file(WRITE ${folder}/foreign/thesis.txt "of another kind\n")
 file(WRITE ${folder}/flawed.txt "1 2 3\n")
+file(WRITE ${folder}/stampless.txt "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n")
 set(sequence "[[sequence]]\npath = \"images\"\n")
 
 # sslam_suite_refuses(WHAT REGEX text): exit code 1 and one line that begins with the file.
@@ -52,6 +53,8 @@ sslam_suite_refuses("a missing trajectory" "line 5: images in trajectories of ..
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {images = \"none.txt\"}\n")
 sslam_suite_refuses("a flawed trajectory" "line 3: ..reference..: [^\n]*flawed.txt: line 1: has 3 columns"
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {images = \"flawed.txt\"}\n")
+sslam_suite_refuses("a trajectory without stamps" "line 3: ..reference..: [^\n]*stampless.txt: its poses have no stamps"
+                    "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {images = \"stampless.txt\"}\n")
 sslam_suite_refuses("a missing earlier batch" "line 1: against: [^\n]*none: no such folder" "against = \"none\"\n${sequence}")
 
 sslam_suite_refuses("a view wider than any" "line 3: fov in ..sequence..: --fov: [^\n]*150" "${sequence}fov = 200\n")

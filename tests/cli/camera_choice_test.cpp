@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/input/camera_choice.hpp"
-#include "cli/input/exif_focal.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <string>
 
+#include "cli/input/exif_focal.hpp"
 #include "io/errors.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"

@@ -134,12 +134,15 @@ class FinalPass {
     recent_.gather(step > 0 ? last_ : around_, around_);
     PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame_);
     if (estimate.ok()) estimate = refinement.refine(map, nullptr, frame_);
-    if (estimate.ok()) {
-      log.set(map, frame_.frame.index, frame_.frame.stamp, reference, frame_.cam_from_world);
-      previous_ = Previous{i, reference, frame_.cam_from_world};
-      last_.read_back(frame_);
-    }
+    if (estimate.ok()) place(i, reference, map, log);
     if (!straightens(i)) std::swap(frames_[i], frame_.frame);
+  }
+
+  // frame_ has its pose, as frame i.
+  void place(std::size_t i, KeyframeId reference, const Map<S>& map, TrajectoryLog<S>& log) {
+    log.set(map, frame_.frame.index, frame_.frame.stamp, reference, frame_.cam_from_world);
+    previous_ = Previous{i, reference, frame_.cam_from_world};
+    last_.read_back(frame_);
   }
 
   // Frames that no sweep has come to, such as those of a map that was given up: what they show may be in the
@@ -154,11 +157,7 @@ class FinalPass {
       frame_.adopt(frames_[i]);
       const PoseEstimate<S> estimate = relocalisation.find(
           map, fallback, refinement, [] { return true; }, frame_, reference);
-      if (estimate.ok()) {
-        log.set(map, frame_.frame.index, frame_.frame.stamp, reference, frame_.cam_from_world);
-        previous_ = Previous{i, reference, frame_.cam_from_world};
-        last_.read_back(frame_);
-      }
+      if (estimate.ok()) place(i, reference, map, log);
       std::swap(frames_[i], frame_.frame);
       if (!estimate.ok()) continue;
       for (std::size_t j = i + 1; j < frames_.size() && lost(j); ++j)
