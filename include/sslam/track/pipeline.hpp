@@ -147,6 +147,8 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     const bool lost = trial.lost();
     PoseEstimate<S> estimate;
     if (!lost || motion.reaches(result.stamp)) estimate = Worlds::track_pose(world_, frames_, result);
+    if (estimate.ok() && !localise_only && !trial.believes(frames_.current()))
+      estimate.reason = Reason::kManhattanRejected;
     const bool tracked = estimate.ok();
     if (!tracked && lost) estimate = Worlds::recognise(world_, rotation, trial, frames_.current(), result);
     if (estimate.ok()) return settle(estimate, tracked, result);
@@ -157,8 +159,10 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   void settle(const PoseEstimate<S>& estimate, bool tracked, TrackResult<S>& result) {
     TrackedFrame<S>& frame = frames_.current();
     Map<S>& map = world_.map;
-    trial.weigh(frame, result.structure, step_);
-    if (!localise_only && trial.refutes(map)) return lose(result, Reason::kManhattanRejected);
+    if (!tracked) trial.drift.end();
+    trial.weigh(frame, result.structure, estimate.point_inliers + estimate.line_inliers, step_);
+    if (!localise_only && (trial.refutes(map) || !trial.believes(frame)))
+      return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
     result.line_inliers = estimate.line_inliers;
     result.cam_from_world = frame.cam_from_world;

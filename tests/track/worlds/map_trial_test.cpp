@@ -24,8 +24,8 @@ Map<double> map_of(std::size_t keyframes) {
 
 constexpr double kStep = 1.0 / 30;  // seconds between frames
 
-void weigh(MapTrial<double>& trial, int frames, double degrees, bool held = true) {
-  for (int i = 0; i < frames; ++i) trial.weigh(tracked(degrees), held, kStep);
+void weigh(MapTrial<double>& trial, int frames, double degrees, bool held = true, int held_by = 100) {
+  for (int i = 0; i < frames; ++i) trial.weigh(tracked(degrees), held, held_by, kStep);
 }
 
 }  // namespace
@@ -143,4 +143,36 @@ TEST_CASE("Patience is in seconds, whatever the rate of the camera") {
     trial.add_lost(frame, 1.0 / rate);
     CHECK(trial.leaves());
   }
+}
+
+TEST_CASE("Poses that hang on little and contradict the Manhattan frame of a square world have drifted") {
+  MapTrial<double> trial;
+  weigh(trial, 60, 1);
+  trial.weigh(tracked(3), true, 20, kStep);  // agrees: what drifts does so after it
+  weigh(trial, 7, 8, false, 60);
+  CHECK(trial.believes(tracked(8)));
+  weigh(trial, 10, 8, false, 60);
+  CHECK(trial.believes(tracked(8)));  // 60 landmarks hold each: the walls stand at another angle here
+  weigh(trial, 1, 8, false, 40);
+  CHECK_FALSE(trial.believes(tracked(8)));
+  TrackedFrame<double> unseen = tracked(1);
+  unseen.manhattan.reset();
+  CHECK_FALSE(trial.believes(unseen));
+  CHECK_FALSE(trial.believes(tracked(1, 5)));
+  CHECK(trial.believes(tracked(1)));
+  trial.drift.end();  // recognised elsewhere
+  CHECK(trial.believes(unseen));
+}
+
+TEST_CASE("Where the world has not been square for long, or is not, a contradiction says nothing of drift") {
+  MapTrial<double> young, oblique;
+  weigh(young, 29, 1);
+  weigh(young, 10, 8, false, 20);
+  CHECK(young.believes(tracked(8)));
+  for (int i = 0; i < 20; ++i) {
+    weigh(oblique, 9, 1);
+    weigh(oblique, 1, 8);
+  }
+  weigh(oblique, 10, 8, false, 20);
+  CHECK(oblique.believes(tracked(8)));
 }

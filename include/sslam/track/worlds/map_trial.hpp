@@ -10,6 +10,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
+#include "sslam/track/worlds/drift_watch.hpp"
 
 namespace sslam {
 
@@ -44,6 +45,14 @@ template <Scalar S>
 class MapTrial {
  public:
   MapTrialOptions<S> options;
+  DriftWatch<S> drift;
+
+  // With those of the drift.
+  template <class Self, class Visit>
+  static void parameters(Self& self, Visit&& visit) {
+    visit_within("", self.options, visit);
+    visit_within("drift.", self.drift.options, visit);
+  }
 
   [[nodiscard]] bool young(const Map<S>& map) const noexcept {
     return static_cast<int>(map.keyframes.size()) < options.young_map;
@@ -64,16 +73,22 @@ class MapTrial {
     unfit_ = 0;
   }
 
-  // A frame has a pose, so many seconds after the frame before it; `held`: within the error that its
-  // Manhattan rotation claims. A first map whose depths are wrong, as two views of a flat scene can leave it,
-  // turns the camera as it moves; the Manhattan frame does not turn along. A wrong Manhattan frame gives a
-  // first map a wrong turn between its two views, and the poses that follow are held by neither.
-  void weigh(const TrackedFrame<S>& frame, bool held, double seconds) {
-    if (!frame.manhattan) return;
+  // A frame has a pose that so many points and lines hold, so many seconds after the frame before it; `held`:
+  // within the error that its Manhattan rotation claims. A first map whose depths are wrong, as two views of
+  // a flat scene can leave it, turns the camera as it moves; the Manhattan frame does not turn along. A wrong
+  // Manhattan frame gives a first map a wrong turn between its two views, and the poses that follow are held
+  // by neither.
+  void weigh(const TrackedFrame<S>& frame, bool held, int held_by, double seconds) {
     const bool against = contradicts(frame);
+    drift.weigh(frame, against, held_by, seconds);
+    if (!frame.manhattan) return;
     inconsistent_ = against ? inconsistent_ + seconds : 0;
     square_ += against ? 0 : seconds;
     (held ? held_ : loose_) += seconds;
+  }
+  // A pose after a drift is believed where the Manhattan frame bears it out.
+  [[nodiscard]] bool believes(const TrackedFrame<S>& frame) const {
+    return !drift.drifted() || (drift.tells(frame) && !contradicts(frame));
   }
   [[nodiscard]] bool contradicts(const TrackedFrame<S>& frame) const {
     if (!frame.manhattan) return false;
@@ -104,6 +119,7 @@ class MapTrial {
   void begin_again() noexcept {
     if (stands_inconsistent() || stands_loose()) ++given_up_;
     end_loss();
+    drift.begin_again();
     inconsistent_ = square_ = held_ = loose_ = 0;
   }
 
