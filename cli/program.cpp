@@ -53,7 +53,7 @@ constexpr Example kExamples[] = {
      "  sslam run room --out results\n  sslam run walk.mp4 --camera phone.yaml\n"
      "  sslam run 0 --live --view --record walk\n  ffmpeg -i X -f image2pipe -c:v mjpeg - | sslam run - "
      "--fov 70\n"
-     "  sslam run room --preset paper --set keyframes.max_turn=10\n"},
+     "  sslam run room --preset paper --set keyframes.max_turn=10\n  sslam run room --foxglove 8765\n"},
     {"eval", "  sslam eval groundtruth.txt trajectory.txt\n  sslam eval room results --plot compared.svg\n"},
     {"normals", "  sslam normals photo.jpg --out normals\n"},
     {"report", "  sslam report results\n"},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/foxglove/endpoint_option.hpp"
 #include "cli/input/camera_options.hpp"
 #include "cli/input/topic_options.hpp"
 #include "cli/results/result_set.hpp"
@@ -146,6 +147,7 @@ void add_output_options(CLI::App& command, RunSettings& s) {
       "--view", s.view,
       "Show the run in a browser on this machine while it goes on, then its report until Ctrl-C");
   add_port_option(command, s.port)->needs(view);
+  add_foxglove_option(command, s.foxglove);
   command.add_flag(
       "--dense", s.dense,
       "Write the walls, floors and other planes with the images on them: model.glb for any viewer, "
@@ -160,7 +162,8 @@ void add_output_options(CLI::App& command, RunSettings& s) {
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
   put_in_group(command, "Output",
-               {"--out", "--scale", "--video", "--view", "--port", "--dense", "--no-report", "--checkpoint"});
+               {"--out", "--scale", "--video", "--view", "--port", "--foxglove", "--dense", "--no-report",
+                "--checkpoint"});
 }
 
 // What a run that goes on does not take from the one that stopped, and what may stand beside --resume.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/foxglove/endpoint.hpp"
 #include "cli/shell/progress.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
@@ -62,7 +63,8 @@ struct RunSettings {
   std::string video;       // overlay video to write; empty: none
   bool view = false;       // show the run while it goes on, and its report until Ctrl-C
   int port = 0;            // of that page; 0: any free one
-  double frame_rate = 30;  // frames a second, for images without stamps
+  std::optional<Endpoint> foxglove;  // where Foxglove finds the run while it goes on; empty: nowhere
+  double frame_rate = 30;            // frames a second, for images without stamps
   Verbosity verbosity = Verbosity::kNormal;
   std::optional<double> checkpoint;     // seconds from one to the next, at least; 0: none; empty: as is usual
   std::vector<std::string> words;       // of the command line, for checkpoints; empty: none are made

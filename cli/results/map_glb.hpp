@@ -11,7 +11,7 @@
 
 #include "cli/results/gltf_file.hpp"
 #include "cli/results/map_colours.hpp"
-#include "sslam/map/plane_extent.hpp"
+#include "cli/results/plane_sheets.hpp"
 #include "sslam/map/vertical.hpp"
 
 namespace sslam::cli {
@@ -85,8 +85,6 @@ inline GlbCounts write_map_glb(const std::filesystem::path& path, const Map<doub
                                const MapColours& colours) {
   namespace detail = map_glb_detail;
   constexpr int kPoints = 0, kLines = 1, kTriangles = 4;  // glTF's modes
-  constexpr io::Colour kSheet{90, 130, 190};
-  constexpr std::uint8_t kSheetAlpha = 70;
   GlbCounts counts;
   detail::Vertices points, lines, planes;
   for (std::size_t i = 0; i < map.points.size(); ++i)
@@ -100,13 +98,9 @@ inline GlbCounts write_map_glb(const std::filesystem::path& path, const Map<doub
     lines.add(line.end, colour);
   }
   std::vector<std::uint32_t> triangles;
-  std::vector<PlaneExtent<double>> extents;
-  gather_extents(map, extents);
-  for (std::size_t p = 0; p < extents.size(); ++p) {
-    if (!map.planes[p].alive || extents[p].places == 0) continue;
+  for (const PlaneSheet& sheet : plane_sheets(map)) {
     const auto first = static_cast<std::uint32_t>(planes.places.size());
-    for (const Vec3<double>& corner : extents[p].corners(map.planes[p].plane))
-      planes.add(corner, kSheet, kSheetAlpha);
+    for (const Vec3<double>& corner : sheet) planes.add(corner, kSheetColour, kSheetAlpha);
     for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) triangles.push_back(first + i);
     ++counts.planes;
   }

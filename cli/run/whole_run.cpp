@@ -137,6 +137,7 @@ void WholeRun::open_output() {
     print_note(settings_.out +
                ": holds the checkpoint of a run that stopped, from which sslam run --resume " +
                settings_.out + " would go on; this run takes its place");
+  if (settings_.foxglove) stream_.emplace(*settings_.foxglove, dataset_);
   if (settings_.record.empty()) return;
   recording_.emplace(settings_.record);
   keep_camera(camera_, *recording_);
@@ -156,6 +157,10 @@ void WholeRun::track() {
 void WholeRun::begin_pass() {
   calibration_->keep(camera_, head_);
   pass_ = std::make_unique<RunPass>(settings_, dataset_, camera_, std::move(wanted_), head_);
+  if (stream_) {
+    stream_->begin(pass_->context.working_camera, pass_->recorder.colours);
+    pass_->system.add_observer(*stream_);
+  }
   if (!known_.empty()) pass_->go_on_in(std::exchange(known_, {}));
   if (const auto resumed = std::exchange(settings_.resumed, nullptr)) pass_->go_on_from(std::move(*resumed));
   pass_->track(dataset_, stream_options(), checkpoints_);
@@ -183,6 +188,7 @@ void WholeRun::follow_up() {
   bring_to_metres(
       scale_, {dataset_, pass_->context.working_camera, camera_.depth_factor, is_metric_map(settings_.map)},
       outcome);
+  if (stream_) stream_->finish(outcome);
   if (settings_.dense) add_dense(*pass_);
   outcome.warnings.insert(outcome.warnings.begin(), calibration_->warnings().begin(),
                           calibration_->warnings().end());

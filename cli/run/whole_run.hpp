@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/foxglove/live_stream.hpp"
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/mask_source.hpp"
 #include "cli/results/folder_lock.hpp"
@@ -70,6 +71,7 @@ class WholeRun {
   CheckpointClock checkpoints_{0, 0};
   std::optional<FolderLock> lock_;
   std::optional<SelfCalibration> calibration_;
+  std::optional<LiveStream> stream_;
   std::unique_ptr<RunPass> pass_;
 };
 

@@ -9,38 +9,10 @@
 #include "cli/report/report_data.hpp"
 #include "cli/results/frame_table.hpp"
 #include "cli/results/map_figures.hpp"
+#include "cli/view/map_copy.hpp"
 #include "sslam/core/move_to_end.hpp"
 
 namespace sslam::cli {
-namespace {
-
-// The landmarks that are alive, and their colours.
-Map<double> landmarks_of(const Map<double>& map, const MapColours& colours, MapColours& seen_colours) {
-  Map<double> seen;
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const auto& point = map.points[i];
-    if (!point.alive) continue;
-    seen_colours.points.push_back(colour_at(colours.points, i));
-    auto& copy = seen.points.emplace_back();
-    copy.position = point.position;
-    copy.plane = point.plane;
-  }
-  for (std::size_t i = 0; i < map.lines.size(); ++i) {
-    const auto& line = map.lines[i];
-    if (!line.alive) continue;
-    seen_colours.lines.push_back(colour_at(colours.lines, i));
-    auto& copy = seen.lines.emplace_back();
-    copy.start = line.start;
-    copy.end = line.end;
-    copy.axis = line.axis;
-    copy.plane = line.plane;
-  }
-  seen.planes = map.planes;
-  return seen;
-}
-
-}  // namespace
-
 LiveRun::LiveRun(std::string name, nlohmann::ordered_json settings, std::size_t total,
                  const Camera<double>& camera, const FeatureColours& colours)
     : camera_(camera), colours_(colours), total_(total) {
@@ -58,8 +30,7 @@ void LiveRun::frame_tracked(const FrameEvent& event) {
   }
   Handover fresh;
   fresh.map = landmarks_of(event.map, colours_.of(event.map), fresh.colours);
-  for (const auto& entry : event.trajectory.entries())
-    fresh.trajectory.push_back({entry.stamp, TrajectoryLog<double>::pose(event.map, entry).inverse()});
+  fresh.trajectory = trajectory_of(event);
   fresh.keyframes = keyframe_poses(event.map);
   fresh.view = encode_frame_view(frame_view(event, row, camera_), event.frame);
   const std::lock_guard lock(handing_);

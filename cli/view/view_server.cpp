@@ -6,9 +6,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <random>
 
 #include "cli/shell/interrupt.hpp"
+#include "cli/view/access_token.hpp"
 #include "cli/view/connection_watch.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
@@ -18,23 +18,6 @@ namespace {
 
 constexpr const char* kHost = "127.0.0.1";
 constexpr std::size_t kWorkers = 32;  // most of them wait for slow clients
-
-// 128 bits from the system's source of randomness.
-std::string random_token() {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::random_device source;
-  std::string token;
-  for (int i = 0; i < 32; ++i) token += kDigits[source() & 15];
-  return token;
-}
-
-// In a time that does not tell how much of it is right.
-bool same_text(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  int different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) different |= a[i] ^ b[i];
-  return different == 0;
-}
 
 // Without caring for copies, and as it is: compressing costs more than sending it to the same machine.
 void send(httplib::Response& response, const SharedText& text, const char* type) {

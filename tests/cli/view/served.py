@@ -8,6 +8,7 @@ Runs a command that shows its run live, and lets it track as far as it is told: 
 line of standard input: "step" with the next frame's number, "finish" with "over" once the run is.
 """
 import json
+import pathlib
 import re
 import signal
 import socket
@@ -15,7 +16,7 @@ import subprocess
 import sys
 import urllib.parse
 
-ADDRESS = r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/"
+ADDRESS = r"(?:http|ws)://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/?"
 
 
 class Served:
@@ -53,6 +54,13 @@ class Served:
         return self.process.returncode, out, err
 
 
+def listening(port):
+    """The addresses, in the system's hexadecimal, on which somebody listens to the port."""
+    lines = [line.split() for kind in ("tcp", "tcp6") for line in pathlib.Path(f"/proc/net/{kind}").read_text().splitlines()[1:]]
+    places = [line[1].split(":") for line in lines if line[3] == "0A"]
+    return [address for address, number in places if int(number, 16) == port]
+
+
 class View(Served):
     def __init__(self, program, *arguments):
         super().__init__(program, "view", *arguments)
@@ -62,10 +70,10 @@ class View(Served):
 class PacedRun(Served):
     """Tracks no further than its progress is read, since the way of its progress holds a few lines only."""
 
-    def __init__(self, program, *arguments):
+    def __init__(self, program, *arguments, shown_by=("--view",)):
         reading, writing = socket.socketpair()
         writing.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1)
-        super().__init__(program, *arguments, "--view", "--json-progress", stderr=writing)
+        super().__init__(program, *arguments, *shown_by, "--json-progress", stderr=writing)
         writing.close()
         self.progress = reading.makefile("rb", buffering=0)  # else Python would read ahead
         reading.close()

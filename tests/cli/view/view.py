@@ -15,7 +15,7 @@ import sys
 import tempfile
 import threading
 
-from served import PacedRun, View
+from served import PacedRun, View, listening
 
 FRAMES = 60
 
@@ -76,13 +76,6 @@ def check_saved(program, scratch):
     view = View(program, scratch / "none")
     assert view.data()["metrics"]["tracked"] == 0
     assert view.end()[0] == 0
-
-
-def listening(port):
-    """The addresses, in the system's hexadecimal, on which somebody listens to the port."""
-    lines = [line.split() for kind in ("tcp", "tcp6") for line in pathlib.Path(f"/proc/net/{kind}").read_text().splitlines()[1:]]
-    places = [line[1].split(":") for line in lines if line[3] == "0A"]
-    return [address for address, number in places if int(number, 16) == port]
 
 
 def check_refusals(program, scratch):

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/io/bags/camera_text.hpp"
 #include "sslam/io/bags/recording.hpp"
 #include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/bag_topics.hpp"
@@ -86,23 +86,6 @@ inline void fill_depth(Dataset& dataset, const BagTopic& topic, BagFrames& bag) 
     bag.depth.places[pair.a] = sorted[pair.b].second;
   }
   dataset.depth_factor = topic.encoding == "32FC1" ? 1 : 1000;  // REP 118
-}
-
-// As a file that --camera takes. Images that were rectified have the camera of the projection, and no lens.
-[[nodiscard]] inline std::string camera_text_of(const CameraInfoMessage& info, bool rectified) {
-  const auto list = [](const auto& values) {
-    std::string text;
-    for (const double value : values) add_to_list(text, exact_decimal(value, 1));
-    return "[" + text + "]\n";
-  };
-  std::array<double, 9> k = info.k;
-  if (rectified)
-    for (std::size_t i = 0; i < 9; ++i) k[i] = info.p[i / 3 * 4 + i % 3];
-  std::string text =
-      "width: " + std::to_string(info.width) + "\nheight: " + std::to_string(info.height) + "\nK: " + list(k);
-  if (rectified || info.d.empty()) return text;
-  return text + "distortion_model: " + (info.model.empty() ? "plumb_bob" : "\"" + info.model + "\"") +
-         "\nD: " + list(info.d);
 }
 
 inline void fill_camera(Dataset& dataset, const BagRecording& recording, const BagTopic& images) {
