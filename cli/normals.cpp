@@ -13,6 +13,7 @@
 #include "cli/input/camera_options.hpp"
 #include "cli/input/frame_reader.hpp"
 #include "cli/input/image_camera.hpp"
+#include "cli/input/image_file.hpp"
 #include "cli/input/normal_files.hpp"
 #include "cli/input/open_images.hpp"
 #include "cli/input/shipped_model.hpp"

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -157,7 +158,7 @@ int main(int argc, char** argv) {
     ros::spin();
     node.finish();
   } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
+    std::fprintf(stderr, "sslam: %s\n", error.what());  // ROS's own words have ended with the node
     return 1;
   }
   return 0;

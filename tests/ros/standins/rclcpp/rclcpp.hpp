@@ -146,5 +146,5 @@ inline void shutdown() {}
 }  // namespace rclcpp
 
 #define RCLCPP_ERROR_THROTTLE(logger, clock, duration, ...) \
-  ((void)(logger), (void)(clock), std::fprintf(stderr, __VA_ARGS__))
+  ((void)(logger), (void)(clock), std::fprintf(stderr, __VA_ARGS__), std::fputc('\n', stderr))
 #define RCLCPP_WARN_THROTTLE RCLCPP_ERROR_THROTTLE
