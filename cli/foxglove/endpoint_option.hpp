@@ -13,10 +13,11 @@ namespace sslam::cli {
 // The endpoint must live until the application has been parsed.
 inline CLI::Option* add_foxglove_option(CLI::App& command, std::optional<Endpoint>& endpoint) {
   const auto take = [&endpoint](const std::string& text) {
-    // Without a value, CLI11 gives the word "true".
-    endpoint = text == "true" ? Endpoint() : parse_endpoint(text);
+    // Without a value, CLI11 gives an empty text, and a file of settings "true".
+    endpoint = text.empty() || text == "true" ? Endpoint() : parse_endpoint(text);
     if (!endpoint)
-      throw CLI::ValidationError("--foxglove", "expected PORT or ADDRESS:PORT, as numbers, not " + text);
+      throw CLI::ValidationError("--foxglove", "expected PORT or ADDRESS:PORT, as numbers, not " + text +
+                                                   "; a dataset goes before --foxglove");
   };
   return command
       .add_option_function<std::string>("--foxglove", take,

@@ -195,9 +195,14 @@ def check_refusals(program, packages, scratch):
     with contextlib.closing(socket.create_server(("127.0.0.1", 0))) as taken:
         port = taken.getsockname()[1]
         refused(program, *track(room, out), "--quiet", "--foxglove", port, words=f"--foxglove 127.0.0.1:{port}: is in use by another program")
+    with contextlib.ExitStack() as usual:  # its port is taken, by this test or by somebody else
+        with contextlib.suppress(OSError):
+            usual.enter_context(socket.create_server(("127.0.0.1", 8765)))
+        refused(program, *track(room, out), "--quiet", "--foxglove", words="--foxglove 127.0.0.1:8765: is in use by another program")
     refused(program, *track(room, out), "--quiet", "--foxglove", "192.0.2.1:0", words="is no address of this machine")
     for wrong in ("65536", "-1", "here", "localhost:8765", ":8765", "127.0.0.1:", "1.2.3.4:5:6"):
         refused(program, *track(room, out), f"--foxglove={wrong}", words="--foxglove: expected PORT or ADDRESS:PORT", code=2)
+    refused(program, "run", "--foxglove", room, words="a dataset goes before --foxglove", code=2)
     (scratch / "old").mkdir()
     shutil.copy(room / "camera.yaml", scratch / "old")
     shutil.copytree(room / "rgb", scratch / "old" / "rgb")
