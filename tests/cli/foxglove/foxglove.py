@@ -202,7 +202,7 @@ def check_refusals(program, packages, scratch):
     refused(program, *track(room, out), "--quiet", "--foxglove", "192.0.2.1:0", words="is no address of this machine")
     for wrong in ("65536", "-1", "here", "localhost:8765", ":8765", "127.0.0.1:", "1.2.3.4:5:6"):
         refused(program, *track(room, out), f"--foxglove={wrong}", words="--foxglove: expected PORT or ADDRESS:PORT", code=2)
-    refused(program, "run", "--foxglove", room, words="a dataset goes before --foxglove", code=2)
+    refused(program, "run", "--foxglove", room, "--quiet", words="a dataset goes before --foxglove", code=2)
     (scratch / "old").mkdir()
     shutil.copy(room / "camera.yaml", scratch / "old")
     shutil.copytree(room / "rgb", scratch / "old" / "rgb")
