@@ -145,6 +145,7 @@ inline void shutdown() {}
 
 }  // namespace rclcpp
 
-#define RCLCPP_ERROR_THROTTLE(logger, clock, duration, ...) \
-  ((void)(logger), (void)(clock), std::fprintf(stderr, __VA_ARGS__), std::fputc('\n', stderr))
+#define RCLCPP_ERROR_THROTTLE(logger, clock, duration, ...)                            \
+  ((void)(logger), (void)(clock), (void)(duration), std::fprintf(stderr, __VA_ARGS__), \
+   std::fputc('\n', stderr))
 #define RCLCPP_WARN_THROTTLE RCLCPP_ERROR_THROTTLE
