@@ -8,9 +8,12 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/input/default_normals.hpp"
+#include "cli/input/shipped_model.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/run.hpp"
 #include "cli/shell/exit_code.hpp"
+#include "cli/shell/messages.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "cli/synth.hpp"
 
@@ -25,6 +28,13 @@ struct DemoSettings {
   Verbosity verbosity = Verbosity::kNormal;
 };
 
+// Those of a run without --dense, which asks for normals in every frame: the demo is to be quick.
+std::string usual_normals() {
+  const DefaultNormals usual = default_normals(find_shipped_model(), true);
+  if (!usual.note.empty()) print_note(usual.note);
+  return usual.source;
+}
+
 void run_demo(const DemoSettings& settings) {
   const std::filesystem::path folder = settings.folder;
   SynthSettings synth;
@@ -38,7 +48,8 @@ void run_demo(const DemoSettings& settings) {
   track.dataset = synth.folder;
   track.out = (folder / "run").string();
   track.seed = settings.seed;
-  track.normals = settings.normals;
+  track.normals = settings.normals.empty() ? usual_normals() : settings.normals;
+  track.dense = true;
   track.verbosity = settings.verbosity;
   run(track);
   std::printf("\nOpen %s in a browser.\n", (folder / "run" / kReportFile).c_str());

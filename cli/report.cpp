@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sslam report RUN`: makes the report of a run anew.
+// `sslam report RUN...`: makes the report of a run anew, or a page that compares several.
 #include "cli/report.hpp"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +12,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/report/base64.hpp"
+#include "cli/report/comparison.hpp"
 #include "cli/report/report_data.hpp"
 #include "cli/report/report_page.hpp"
 #include "cli/results/run_folder.hpp"
@@ -61,14 +62,47 @@ void write_report(const std::filesystem::path& folder, const std::string& page) 
   io::write_text(folder / kReportFile, page);
 }
 
+namespace {
+
+constexpr const char* kCompareFile = "compare.html";
+
+std::string comparison_html(const std::vector<std::filesystem::path>& folders,
+                            const std::filesystem::path& file) {
+  const Comparison comparison = compare_runs(folders, file);
+  print_warnings(comparison.warnings);
+  const ComparePage page = compare_page();
+  std::string html(page.before_data);
+  append_script_json(comparison.data, html);
+  return html += page.after_data;
+}
+
+// out: empty for where such a page usually goes.
+void report(const std::vector<std::filesystem::path>& folders, std::filesystem::path out) {
+  const bool single = folders.size() == 1;
+  if (out.empty()) out = single ? folders.front() / kReportFile : std::filesystem::path(kCompareFile);
+  io::write_text(out, single ? report_of(folders.front()) : comparison_html(folders, out));
+  std::printf("written to       %s\n", out.c_str());
+}
+
+}  // namespace
+
 void add_report_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("report", "Make report.html of a run anew, from the run's files");
-  auto folder = std::make_shared<std::string>();
-  command->add_option("run", *folder, "Folder that `sslam run --out` has written to")->required();
-  command->callback([folder] {
-    write_report(*folder, report_of(*folder));
-    std::printf("written to       %s\n", (std::filesystem::path(*folder) / kReportFile).c_str());
-  });
+  CLI::App* command = app.add_subcommand(
+      "report", "Make report.html of a run anew, from the run's files, or compare several runs on one page");
+  struct Settings {
+    std::vector<std::filesystem::path> folders;
+    std::filesystem::path out;
+  };
+  auto s = std::make_shared<Settings>();
+  command
+      ->add_option("run", s->folders,
+                   "Folder that `sslam run --out` has written to; of several, one page compares the runs")
+      ->required();
+  command
+      ->add_option("-o,--out", s->out,
+                   "The page; default report.html in the run's folder, compare.html here for several runs")
+      ->type_name("FILE");
+  command->callback([s] { report(s->folders, s->out); });
 }
 
 }  // namespace sslam::cli

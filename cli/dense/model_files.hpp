@@ -2,21 +2,12 @@
 // A textured model as files: binary glTF 2.0, Wavefront OBJ, and PLY with a colour at every vertex.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <vector>
 
 #include "cli/dense/plane_texture.hpp"
+#include "cli/results/textured_mesh.hpp"
 
 namespace sslam::cli {
-
-// Triangles that are seen from the side from which they were filmed, in the coordinates of the map.
-struct TexturedMesh {
-  std::vector<Vec3<float>> places, normals;
-  std::vector<Vec2<float>> textures;  // 0 to 1 over the image, from its upper left corner
-  std::vector<std::uint32_t> indices;
-  std::vector<unsigned char> jpeg;
-};
 
 [[nodiscard]] TexturedMesh textured_mesh(const dense::DenseModel& model, const Atlas& atlas);
 

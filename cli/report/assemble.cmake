@@ -1,9 +1,9 @@
-# Joins the report's page into one file, and writes that as the bytes of a C array.
-# cmake -DSOURCE=folder of the page -DSCRIPTS=name;... -DTHREE=bundle or empty -DTHREE_LICENCE=file or empty
+# Joins a page into one file, and writes that as the bytes of a C array.
+# cmake -DSOURCE=folder of the page -DHTML=its frame, a file there -DSCRIPTS=name;... -DTHREE=bundle or empty -DTHREE_LICENCE=file or empty
 #       -DPAGE=page.html -DBYTES=page.inc -P assemble.cmake
 cmake_minimum_required(VERSION 3.25)  # else @NAME@ would stand for a variable
 
-file(READ "${SOURCE}/page.html" page)
+file(READ "${SOURCE}/${HTML}" page)
 file(READ "${SOURCE}/style.css" style)
 set(script "")
 foreach(name IN LISTS SCRIPTS)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run, as report_data.cpp wrote it, with its arrays unpacked. One global: run.
+// A run, as report_data.cpp wrote it, with its arrays unpacked.
 
 const kArrayTypes = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, i32: Int32Array, u16: Uint16Array, u8: Uint8Array, i8: Int8Array };
 
@@ -51,6 +51,21 @@ function withWitnesses({ counts, listed, keyframes, planes }) {
   return { counts, planes, keyframesOf: (i) => [...keyframes.subarray(from[i], from[i + 1])] };
 }
 
+// Where down is in the map, a unit vector; y where nothing is known, or it would be turned over.
+function downOf(up) {
+  const down = (up ?? [0, -1, 0]).map((value) => -value);
+  return down[1] > -0.99 ? down : [0, 1, 0];
+}
+
+// From the map to axes of the same kind (x right, y down, z ahead) with y downwards: the smallest turn that does it.
+function levellingOf(down) {
+  const axis = cross(down, [0, 1, 0]);
+  return (x, y, z) => {
+    const once = cross(axis, [x, y, z]), twice = cross(axis, once);
+    return [x, y, z].map((value, k) => value + once[k] + twice[k] / (1 + down[1]));
+  };
+}
+
 function makeRun(raw) {
   const metrics = raw.metrics;  // as it was written: it may have a member called base64
   delete raw.metrics;
@@ -58,7 +73,7 @@ function makeRun(raw) {
   const frames = new FrameTable(data.frames);
   const settings = metrics.settings ?? {};
   const secondsPerStamp = Number(settings.seconds_per_stamp) || 1;
-  const stamps = frames.all("stamp");
+  const stamps = frames.all("stamp"), down = downOf(data.up);
   return {
     kind: "run",  // "live": one that goes on; "map": the map alone
     ...data,
@@ -68,6 +83,8 @@ function makeRun(raw) {
     pinhole: numbersOr([1, 1, 0.5, 0.5], settings.pinhole, 4),
     imageSize: numbersOr([1, 1], settings.image_size, 2),
     scale: data.metres_per_unit ?? 1,
+    down,
+    levelled: levellingOf(down),
     unit: data.metres_per_unit ? "m" : "map units",
     secondsOfStamp: (stamp) => (stamp - (stamps[0] ?? 0)) * secondsPerStamp,
     seconds: (row) => (stamps[row] - (stamps[0] ?? 0)) * secondsPerStamp,
@@ -77,10 +94,23 @@ function makeRun(raw) {
     // The state by which a frame is coloured: a pose that has the Manhattan rotation in it is the structure's, also
     // where six degrees of freedom were searched.
     look: (row) => (frames.text("state", row) === "fallback" && frames.number("structure", row) === 1 ? "manhattan" : frames.text("state", row)),
+    surfaces: data.surfaces ? new Surfaces(data.surfaces) : null,
+    textureLeft: data.surfaces ? { share: data.surfaces.share, quality: data.surfaces.quality } : null,
     pointWitnesses: withWitnesses(data.point_witnesses),
     lineWitnesses: withWitnesses(data.lines.witnesses),
     reason: (row) => frames.text("reason", row),
   };
 }
 
-const run = makeRun(JSON.parse(document.getElementById("data").textContent));
+// Runs of rows for which same(row) gives equal, not null, answers.
+function spansOf(count, same) {
+  const spans = [];
+  for (let row = 0; row < count; ++row) {
+    const key = same(row);
+    const last = spans[spans.length - 1];
+    if (key === null) continue;
+    if (last && last.to === row - 1 && last.key === key) last.to = row;
+    else spans.push({ key, from: row, to: row });
+  }
+  return spans;
+}

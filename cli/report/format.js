@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small tools of the page: elements, numbers in words, the theme's colours, and which frame is shown.
+// Small tools of the pages: elements, numbers in words, the theme's colours, and which frame is shown.
 
 function byId(id) { return document.getElementById(id); }
 
@@ -30,6 +30,14 @@ function clock(row) { return `${run.seconds(row).toFixed(2)} s`; }
 function countOf(number, noun) { return `${number} ${noun}${number === 1 ? "" : "s"}`; }
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
+
+function quantile(values, share) {
+  const sorted = Float64Array.from(values).sort();
+  return sorted[Math.round(share * (sorted.length - 1))];
+}
+
+function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+function cross(a, b) { return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]; }
 
 // The states of frames, in words.
 const kStateWords = {

@@ -1,27 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts the page together: title, view, layers, timeline, keys, theme.
 
-function toggleButton(label, set, inkName) {
-  const button = element("button", { type: "button", "aria-pressed": "true" });
-  if (inkName !== undefined) {
-    const swatch = element("span", { className: inkName ? "swatch" : "swatch axes" });
-    if (inkName) swatch.style.color = `var(--${inkName})`;
-    button.append(swatch);
-  }
-  button.append(label);
-  button.addEventListener("click", () => {
-    const on = button.getAttribute("aria-pressed") !== "true";
-    button.setAttribute("aria-pressed", String(on));
-    set(on);
-  });
-  return button;
-}
-
-function setTheme(name) {
-  document.documentElement.dataset.theme = name;
-  byId("theme").textContent = name === "dark" ? "Light" : "Dark";
-  redrawAll();
-}
+const run = makeRun(JSON.parse(document.getElementById("data").textContent));
 
 const kKinds = { run: "run report", live: "run in progress", map: "map" };
 
@@ -115,17 +95,6 @@ function showFrameText(row) {
   byId("slider").setAttribute("aria-valuetext", `frame ${index}, ${state}`);
 }
 
-function drawStrip() {
-  const cleared = clearedContext(byId("strip"));
-  if (!cleared) return;
-  const { context, width, height } = cleared;
-  for (const span of spansOf(run.frames.count, (row) => run.look(row) || "none")) {
-    context.fillStyle = colour(span.key) || colour("none");
-    const x = width * span.from / run.frames.count;
-    context.fillRect(x, 0, Math.max(width * (span.to + 1) / run.frames.count - x, 1), height);
-  }
-}
-
 // Plays in real time, by the stamps.
 const player = {
   on: false,
@@ -202,8 +171,7 @@ function hideMissing() {
 
 function main() {
   document.documentElement.dataset.kind = run.kind;
-  setTheme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-  byId("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+  startTheme();
   showFigures();
   part("title", showTitle);
   part("settings", showSettings);
@@ -211,7 +179,7 @@ function main() {
   byId("slider").addEventListener("input", (event) => shown.set(Number(event.target.value)));
   byId("play").addEventListener("click", () => player.toggle());
   shown.listen(showFrameText);
-  redraws.push(drawStrip);
+  redraws.push(() => drawStates(byId("strip"), run));
   const view = makeView();
   showLayers(view);
   showTools(view);

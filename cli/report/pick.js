@@ -2,6 +2,7 @@
 // A click in the 3D view: what lies there, who has seen it, and how far it is from the last such place.
 
 const kReach = { keyframe: 10, point: 7, line: 6, frame: 6 };  // pixels
+const kBehind = 1.02;  // times as far as a surface is what it hides
 const kListed = 24;                                            // keyframes that are named
 
 class Picker {
@@ -48,9 +49,16 @@ class Picker {
 
   shows(layer) { return Boolean(this.view.layers[layer]?.visible); }
 
-  // What lies at a pixel of the canvas: {kind, index, place}; null for nothing. Small things go before large ones.
+  // What lies at a pixel of the canvas: {kind, index, place}; null for nothing. Small things go before large ones, unless a
+  // surface hides them.
   at(x, y) {
     const project = this.projection();
+    const found = this.thingAt(project, x, y), surface = this.shows("surfaces") ? this.surfaceAt(x, y) : null;
+    const hidden = found && surface && project(...found.place).w > kBehind * project(...surface.place).w;
+    return hidden ? surface : found ?? surface;
+  }
+
+  thingAt(project, x, y) {
     return (this.shows("keyframes") && this.nearestOf("keyframe", run.keyframes, 7, project, x, y))
       || (this.shows("points") && this.nearestOf("point", run.points, 3, project, x, y))
       || (this.shows("lines") && this.lineAt(project, x, y))
@@ -124,6 +132,14 @@ class Picker {
     return this.nearestQuad("plane", quads, project, x, y);
   }
 
+  surfaceAt(x, y) {
+    const { clientWidth: width, clientHeight: height } = this.view.canvas;
+    const inMap = (depth) => this.view.world.worldToLocal(new THREE.Vector3(2 * x / width - 1, 1 - 2 * y / height, depth).unproject(this.view.viewpoint.camera)).toArray();
+    const [near, far] = [inMap(-1), inMap(1)];
+    const hit = run.surfaces.hit(near, far.map((value, n) => value - near[n]));
+    return hit && { kind: "surface", ...hit };
+  }
+
   take(found) {
     if (!this.measures) {
       if (found) this.describe(found);
@@ -164,11 +180,12 @@ class Picker {
     return [element("span", { className: "swatch", style: `color: rgb(${colours[3 * i]} ${colours[3 * i + 1]} ${colours[3 * i + 2]})` })];
   }
 
-  describe({ kind, index, place }) {
+  describe(found) {
+    const { kind, index, place } = found;
     const at = `at ${place.map((value) => figure(value * run.scale)).join(", ")} ${run.unit} in the map's axes`;
     const fly = element("button", { type: "button", onclick: () => this.view.viewpoint.flyTo(place) }, "Fly there");
     const seenBy = (witnesses) => (witnesses.counts[index] > 0 ? `seen by ${countOf(witnesses.counts[index], "keyframe")}` : "");
-    const onPlane = (witnesses) => (witnesses.planes[index] >= 0 ? `lies on plane ${witnesses.planes[index]}` : "");
+    const onPlane = (witnesses) => (!run.surfaces && witnesses.planes[index] >= 0 ? `lies on plane ${witnesses.planes[index]}` : "");
     const axis = (number, word) => (number >= 0 && number < 3 ? `${word} the room's ${kAxes[number]} axis` : `${word} none of the room's axes`);
     const rays = (keyframes) => this.view.mark(keyframes.flatMap((k) => [...place, ...run.keyframes.subarray(7 * k, 7 * k + 3)]), place);
     if (kind === "point") {
@@ -191,6 +208,12 @@ class Picker {
       this.view.mark(quad, place);
       return this.say(`Plane ${index}`, [`${side(0, 1)} by ${side(1, 2)} ${run.unit}, ${axis(run.planes.axes[index], "at right angles to")}`,
         `${countOf(members(run.pointWitnesses), "point")} and ${countOf(members(run.lineWitnesses), "line")} lie on it`], fly);
+    }
+    if (kind === "surface") {
+      const of = densePlaneAt(found), metres = (value) => `${figure(value * run.scale)} ${run.unit}`;
+      this.view.mark([], place);
+      return this.say(of ? `Surface ${of.index}` : "Surface", of ? [`${figure(of.plane.area * run.scale ** 2)} ${run.unit === "m" ? "m\u00b2" : "square map units"} were seen, ${axis(of.plane.axis, "at right angles to")}`,
+        `its distance is known to ${metres(of.plane.distance_sigma)} (standard deviation)`, at] : [at], fly);
     }
     const row = kind === "keyframe" ? run.keyframe_rows[index] : index;
     if (row >= 0) shown.set(row);

@@ -2,9 +2,6 @@
 # page draws its top view in two dimensions and says so.
 set(report_source "${CMAKE_CURRENT_LIST_DIR}")
 set(report_build "${CMAKE_CURRENT_BINARY_DIR}/report")
-set(report_scripts data.js format.js story.js top_view.js viewpoint.js scene_parts.js scene.js charts.js views.js
-                   sphere.js tables.js save.js pick.js live.js main.js)
-
 set(three "")
 set(three_licence "")
 find_program(SSLAM_NPM npm DOC "Fetches three.js for the 3D view of sslam's reports")
@@ -44,13 +41,20 @@ if(NOT three)
   message(STATUS "No three.js (npm or the network is missing): reports show the map in two dimensions")
 endif()
 
-list(TRANSFORM report_scripts PREPEND "${report_source}/" OUTPUT_VARIABLE report_script_files)
-add_custom_command(
-  OUTPUT "${report_build}/report_page.inc"
-  COMMAND ${CMAKE_COMMAND} "-DSOURCE=${report_source}" "-DSCRIPTS=${report_scripts}" "-DTHREE=${three}"
-          "-DTHREE_LICENCE=${three_licence}" "-DPAGE=${report_build}/page.html"
-          "-DBYTES=${report_build}/report_page.inc" -P "${report_source}/assemble.cmake"
-  DEPENDS "${report_source}/assemble.cmake" "${report_source}/page.html" "${report_source}/style.css"
-          ${report_script_files} ${three}
-  COMMENT "Assembling the report's page"
-  VERBATIM)
+# sslam_page(NAME HTML bundle of three.js or empty, script...): NAME.inc, the page as bytes.
+function(sslam_page name html bundle)
+  list(TRANSFORM ARGN PREPEND "${report_source}/" OUTPUT_VARIABLE files)
+  add_custom_command(
+    OUTPUT "${report_build}/${name}.inc"
+    COMMAND ${CMAKE_COMMAND} "-DSOURCE=${report_source}" "-DHTML=${html}" "-DSCRIPTS=${ARGN}" "-DTHREE=${bundle}"
+            "-DTHREE_LICENCE=${three_licence}" "-DPAGE=${report_build}/${name}.html"
+            "-DBYTES=${report_build}/${name}.inc" -P "${report_source}/assemble.cmake"
+    DEPENDS "${report_source}/assemble.cmake" "${report_source}/${html}" "${report_source}/style.css" ${files} ${bundle}
+    COMMENT "Assembling ${html}"
+    VERBATIM)
+endfunction()
+
+set(report_tools format.js controls.js data.js plot.js save.js)
+sslam_page(report_page page.html "${three}" ${report_tools} surfaces.js story.js top_view.js viewpoint.js scene_parts.js scene.js
+           charts.js views.js sphere.js tables.js pick.js live.js main.js)
+sslam_page(compare_page compare.html "" ${report_tools} compare_paths.js compare.js)

@@ -10,14 +10,15 @@
 #include <span>
 #include <string_view>
 
-#include "cli/report/base64.hpp"
+#include "cli/report/packed.hpp"
 #include "cli/report/seen_part.hpp"
+#include "cli/report/surface_data.hpp"
 #include "cli/results/scale_record.hpp"
 #include "cli/video/overlay_colours.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
-#include "sslam/io/maps/byte_archive.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 #include "sslam/map/plane_extent.hpp"
+#include "sslam/map/vertical.hpp"
 #include "sslam/version.hpp"
 
 namespace sslam::cli {
@@ -26,20 +27,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kNone64 = std::numeric_limits<double>::quiet_NaN();
-
-template <class Target>
-Json packed(const char* type, std::span<const double> values) {
-  io::ByteWriter out;
-  for (const double value : values) out(static_cast<Target>(value));
-  Json array;
-  array["type"] = type;
-  array["base64"] = base64(out.bytes);
-  return array;
-}
-
-Json floats(std::span<const double> values) {
-  return packed<float>("f32", values);
-}
 
 void append(std::vector<double>& values, const Vec3<double>& v) {
   values.insert(values.end(), {v.x(), v.y(), v.z()});
@@ -125,8 +112,11 @@ class DataMaker {
     data_["frames"]["columns"] = std::move(columns);
     add_poses();
     data_["overlay"] = overlay_json();
+    const Vec3<double> up = up_direction(run_.map);
+    data_["up"] = {up.x(), up.y(), up.z()};
     add_keyframes();
     add_map();
+    add_surfaces();
     try {
       add_truth();
     } catch (const std::exception& error) {
@@ -269,6 +259,14 @@ class DataMaker {
       axes.push_back(axis_in_frame(plane.axis));
     }
     data_["planes"] = {{"corners", floats(corners)}, {"axes", packed<std::int8_t>("i8", axes)}};
+  }
+
+  // Those of `--dense`, in place of the rectangles.
+  void add_surfaces() {
+    if (run_.surfaces.empty()) return;
+    std::string problem;
+    data_["surfaces"] = surface_data(run_.surfaces, kSurfaceRoom, problem);
+    if (!problem.empty()) run_.problems.push_back(std::string(kModelFile) + ": " + problem);
   }
 
   // The ground truth in the map's world, and the error of each frame.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report's page, built into the program from the files in cli/report.
+// The pages of reports, built into the program from the files in cli/report.
 #pragma once
 
 #include <string_view>
@@ -12,5 +12,12 @@ struct ReportPage {
 };
 
 [[nodiscard]] ReportPage report_page();
+
+// That of a comparison, around its data (JSON).
+struct ComparePage {
+  std::string_view before_data, after_data;
+};
+
+[[nodiscard]] ComparePage compare_page();
 
 }  // namespace sslam::cli

@@ -12,10 +12,12 @@ class Scene3D {
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
     this.scene = new THREE.Scene();
-    this.world = new THREE.Group();  // metres where the scale is known; y up, as the map's y points down
-    this.world.rotation.x = Math.PI;
-    this.world.scale.setScalar(run.scale);
-    this.scene.add(this.world);
+    this.level = new THREE.Group();  // metres where the scale is known; levelled, y up, where the map's y points down
+    this.level.rotation.x = Math.PI;
+    this.level.scale.setScalar(run.scale);
+    this.world = new THREE.Group();  // the map
+    this.level.add(this.world);
+    this.scene.add(this.level);
     this.layers = {};
     this.materials = {};  // by layer: they outlive what they are on
     this.hidden = new Set();
@@ -24,7 +26,7 @@ class Scene3D {
     this.seenColours = run.coloured;
     this.pathColours = "state";
     this.measure();
-    this.viewpoint = new Viewpoint(canvas, this.world, this.middle, this.radius, () => this.request());
+    this.viewpoint = new Viewpoint(canvas, this.world, this.seen, () => this.request());
     this.build();
     shown.listen(() => this.showFrame());
     redraws.push(() => this.restyle());
@@ -35,18 +37,20 @@ class Scene3D {
 
   measure() {
     const { low, high } = boxOfRun();
-    const at = (corner) => this.world.localToWorld(new THREE.Vector3(...corner));
-    this.world.updateMatrixWorld();
-    this.middle = at(low).add(at(high)).multiplyScalar(0.5);
+    const at = (corner) => this.level.localToWorld(new THREE.Vector3(...corner));
+    this.world.quaternion.setFromUnitVectors(new THREE.Vector3(...run.down), new THREE.Vector3(0, 1, 0));
+    this.level.updateMatrixWorld();
     this.radius = Math.max(at(low).distanceTo(at(high)) / 2, 0.1);
-    this.floor = high[1];
+    const corners = Array.from({ length: 8 }, (_, i) => at(low.map((value, k) => (i >> k & 1 ? high[k] : value))));
+    this.seen = { middle: at(low).add(at(high)).multiplyScalar(0.5), radius: this.radius, corners };
+    this.floor = high[1] + 0.02 * this.radius / run.scale;  // a little below what is seen of it
   }
 
-  add(name, object) {
+  add(name, object, to = this.world) {
     this.layers[name] = object;
     object.frustumCulled = false;
     object.visible = !this.hidden.has(name);
-    this.world.add(object);
+    to.add(object);
     return object;
   }
 
@@ -73,14 +77,15 @@ class Scene3D {
   }
 
   build() {
-    const addPlain = (name, ends) => this.add(name,
-      new THREE.LineSegments(geometryOf(new Float32Array(ends)), this.material(name, () => new THREE.LineBasicMaterial())));
-    addPlain("grid", this.gridEnds());
+    const addPlain = (name, ends, to) => this.add(name,
+      new THREE.LineSegments(geometryOf(new Float32Array(ends)), this.material(name, () => new THREE.LineBasicMaterial())), to);
+    addPlain("grid", this.gridEnds(), this.level);
     const dots = this.material("points", () => new THREE.PointsMaterial({ size: kPointSize, sizeAttenuation: false, vertexColors: true }));
     const points = geometryOf(mixedTriples(run.points)).setAttribute("color", new THREE.BufferAttribute(new Float32Array(run.points.length), 3));
     this.add("points", new THREE.Points(points, dots));
     this.addWide("lines", run.lines.ends, 2, true);
-    this.addPlanes(run.planes);
+    if (run.surfaces) this.add("surfaces", this.surfaces ??= this.surfaceMesh(run.surfaces));
+    else this.addPlanes(run.planes);
     this.pathRows = [];  // the later frame of each step of the path
     const steps = [];
     for (let row = 1; row < run.frames.count; ++row) {
@@ -113,6 +118,22 @@ class Scene3D {
     const material = this.material("planes", () => new THREE.MeshBasicMaterial(
       { vertexColors: true, transparent: true, opacity: 0.18, side: THREE.DoubleSide, depthWrite: false }));
     this.add("planes", new THREE.Mesh(geometry, material));
+  }
+
+  // Grey until the texture is there. What lies on the surfaces is drawn before them.
+  surfaceMesh(surfaces) {
+    const { places, textures, indices } = surfaces;
+    const geometry = geometryOf(places).setAttribute("uv", new THREE.BufferAttribute(textures, 2)).setIndex(new THREE.BufferAttribute(indices, 1));
+    const material = new THREE.MeshBasicMaterial({ color: 0x808080, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 });
+    surfaces.image().then((image) => {
+      if (!image) return notice("The texture of the surfaces cannot be decoded: they are grey.");
+      material.map = this.textureOf(image);
+      material.map.flipY = false;  // its places are told from the upper left corner
+      material.color.set(0xffffff);
+      material.needsUpdate = true;
+      this.request();
+    });
+    return new THREE.Mesh(geometry, material);
   }
 
   quadGeometry(corners) {
@@ -227,10 +248,11 @@ class Scene3D {
     this.measure();
     this.build();
     for (const object of old) {
-      this.world.remove(object);
+      if (object === this.surfaces) continue;
+      object.removeFromParent();
       object.traverse((part) => { if (part !== this.eyePicture) part.geometry?.dispose(); });
     }
-    this.viewpoint.grow(this.middle, this.radius);
+    this.viewpoint.grow(this.seen);
   }
 
   // Squares of 1 m (or of a power of ten that suits the map) at the height of the lowest points.
@@ -258,16 +280,20 @@ class Scene3D {
     if (seen) dots.array.set(mixedTriples(run.point_colours).map((value) => kLight[value]));
     else for (let i = 0; i < dots.count; ++i) dots.setXYZ(i, plain.r, plain.g, plain.b);
     dots.needsUpdate = true;
+    if (this.layers.planes) this.paintPlanes(axes);
+    this.worst = run.errors ? quantile(run.errors.position_m.filter((value) => !Number.isNaN(value)), 0.98) || 1 : 1;
+    const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
+    this.paint("path", this.pathRows.length, (i) => this.pathColour(this.pathRows[i], states));
+    this.showFrame();
+  }
+
+  paintPlanes(axes) {
     const { color } = this.layers.planes.geometry.attributes;
     run.planes.axes.forEach((axis, i) => {
       const { r, g, b } = axes[axis] ?? axes[3];
       for (let k = 6 * i; k < 6 * i + 6; ++k) color.setXYZ(k, r, g, b);
     });
     color.needsUpdate = true;
-    this.worst = run.errors ? quantile(run.errors.position_m.filter((value) => !Number.isNaN(value)), 0.98) || 1 : 1;
-    const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
-    this.paint("path", this.pathRows.length, (i) => this.pathColour(this.pathRows[i], states));
-    this.showFrame();
   }
 
   setLayer(name, on) {

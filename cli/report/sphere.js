@@ -91,8 +91,6 @@ class Sphere {
   }
 }
 
-function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-function cross(a, b) { return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]; }
 function normalised(a) {
   const length = Math.sqrt(dot(a, a)) || 1;
   return a.map((x) => x / length);

@@ -2,19 +2,7 @@
 // What went wrong and where, in words.
 
 const kWarnings = 5;  // in full
-
-// Runs of rows for which same(row) gives equal, not null, answers.
-function spansOf(count, same) {
-  const spans = [];
-  for (let row = 0; row < count; ++row) {
-    const key = same(row);
-    const last = spans[spans.length - 1];
-    if (key === null) continue;
-    if (last && last.to === row - 1 && last.key === key) last.to = row;
-    else spans.push({ key, from: row, to: row });
-  }
-  return spans;
-}
+const kJitter = 1.25;  // times as long as its truth is a path that is mentioned
 
 // "too few matches with the map (10 frames), ...": the most frequent first.
 function reasonsIn(span) {
@@ -111,8 +99,16 @@ function tellStory() {
   if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals showed none of the room's axes: too few planes were in view. Lines alone gave the axes there.` });
   const worst = run.errors ? greatest(run.errors.position_m) : -1;
   if (worst >= 0) items.push({ state: "manhattan", text: `The largest position error is ${figure(run.errors.position_m[worst])} m (${whereOf({ from: worst, to: worst })}).`, row: worst });
+  const { path_m: truly, estimate_path_m: estimated, notes } = metrics.trajectory ?? {};
+  if (estimated > kJitter * truly)
+    items.push({ state: "fallback", text: `The estimated path is ${figure(estimated)} m long, the true one ${figure(truly)} m: the estimate jitters from frame to frame.` });
+  for (const note of Array.isArray(notes) ? notes : []) items.push({ state: "fallback", text: String(note) });
   const slowest = frames.has("frame_ms") ? greatest(frames.all("frame_ms")) : -1;
   if (slowest >= 0) items.push({ state: "manhattan", text: `The slowest frame took ${figure(frames.number("frame_ms", slowest))} ms (${whereOf({ from: slowest, to: slowest })}).`, row: slowest });
+  if (run.textureLeft?.quality > 0) {
+    const size = run.textureLeft.share < 1 ? `has ${Math.round(100 * run.textureLeft.share)} % of the width and height that it has in model.glb` : "is compressed more than in model.glb";
+    items.push({ state: "none", text: `The texture of the surfaces ${size}, so that this page stays small.` });
+  }
   const warnings = metrics.warnings ?? [];
   for (const warning of warnings.slice(0, kWarnings)) items.push({ state: "fallback", text: String(warning) });
   if (warnings.length > kWarnings) items.push({ state: "fallback", text: `And ${countOf(warnings.length - kWarnings, "more warning")}, in metrics.json.` });

@@ -10,22 +10,21 @@ function showSummary() {
   const { metrics } = run;
   if (metrics.frames !== undefined) {
     const share = Number(metrics.share_tracked);
-    tile(`${figure(100 * share)} %`, "", `${metrics.tracked} of ${metrics.frames} frames tracked`, share < 0.9);
+    const later = metrics.tracked - metrics.tracked_live;
+    tile(`${figure(100 * share)} %`, "", `${metrics.tracked} of ${metrics.frames} frames tracked${later > 0 ? `: ${metrics.tracked_live} live, ${later} afterwards` : ""}`, share < 0.9);
   }
   const errors = metrics.trajectory;
   if (errors) {
     tile(figure(errors.ate_m?.rmse), "m", `position error (ATE, rmse) over ${figure(errors.path_m)} m`);
-    tile(`${figure(errors.rotation_own_offset_deg?.rmse)}°`, "", "rotation error (rmse)");
+    tile(`${figure(errors.rotation_own_offset_deg?.rmse)}°`, "", "rotation error (rmse), after a constant offset");
   }
   if (metrics.times) tile(figure(metrics.times.frames_per_second), "frames/s", `median ${figure(metrics.times.frame_ms?.median)} ms a frame`);
   if (metrics.keyframes !== undefined) tile(String(metrics.keyframes), "", "keyframes");
   if (metrics.points !== undefined) tile(String(metrics.points), "", `points and ${metrics.lines} lines in the map`);
+  if (metrics.dense?.planes?.length > 0) tile(figure(metrics.dense.area * run.scale ** 2), run.unit === "m" ? "m\u00b2" : "square map units", `of ${countOf(metrics.dense.planes.length, "surface")}`);
 }
 
-function quantile(values, share) {
-  const sorted = Float64Array.from(values).sort();
-  return sorted[Math.round(share * (sorted.length - 1))];
-}
+const kSums = ["extraction_ms", "tracking_ms", "frame_ms"];  // of the stages above each of them
 
 function showTimings() {
   const { frames } = run;
@@ -39,7 +38,7 @@ function showTimings() {
   for (const name of names) {
     const values = frames.all(name);
     const bar = element("div", { style: `width: ${Math.min(100, 100 * mean(values) / whole)}%`, title: `${figure(mean(values))} ms` });
-    table.append(element("tr", {}, element("th", {}, name.replace(/_ms$/, "")), number(quantile(values, 0.5)), number(quantile(values, 0.95)),
+    table.append(element("tr", { className: kSums.includes(name) ? "sum" : "" }, element("th", {}, name.replace(/_ms$/, "")), number(quantile(values, 0.5)), number(quantile(values, 0.95)),
       number(quantile(values, 1)), element("td", { className: "share" }, bar)));
   }
   byId("timings").append(table, element("p", { className: "quiet" },

@@ -17,14 +17,15 @@ class TopView {
     this.draw();
   }
 
-  // Map x to the right, map z up, all of the paths and nearly all points in view.
+  // The levelled map's x to the right and z up, all of the paths and nearly all points in view.
   fit(width, height) {
     const box = boxOfRun();
     const margin = 24;
     this.zoom = Math.min((width - 2 * margin) / Math.max(box.high[0] - box.low[0], 1e-6),
       (height - 2 * margin) / Math.max(box.high[2] - box.low[2], 1e-6));
-    this.place = (x, z) => [width / 2 + this.zoom * (x - (box.low[0] + box.high[0]) / 2),
+    this.pixel = ([x, , z]) => [width / 2 + this.zoom * (x - (box.low[0] + box.high[0]) / 2),
       height / 2 - this.zoom * (z - (box.low[2] + box.high[2]) / 2)];
+    this.place = (list, at) => this.pixel(run.levelled(list[at], list[at + 1], list[at + 2]));
   }
 
   draw() {
@@ -32,6 +33,7 @@ class TopView {
     if (!cleared) return;
     const { context, width, height } = cleared;
     this.fit(width, height);
+    if (this.layers.has("surfaces") && run.surfaces) this.drawSurfaces(context, width, height);
     if (this.layers.has("points")) this.drawPoints(context);
     if (this.layers.has("lines")) this.drawLines(context);
     if (this.layers.has("truth") && run.truth) this.drawPath(context, run.truth.positions, 3, colour("truth"), [5, 4]);
@@ -40,12 +42,23 @@ class TopView {
     if (run.frames.count > 0 && run.hasPose(shown.row)) this.drawCamera(context);
   }
 
+  // Made once for each size of the canvas, when the texture is there.
+  drawSurfaces(context, width, height) {
+    if (this.above?.width === width && this.above?.height === height) return context.drawImage(this.above, 0, 0);
+    run.surfaces.image().then((image) => {
+      if (!image || this.above?.width === width && this.above?.height === height) return;
+      this.above = element("canvas", { width, height });
+      this.above.getContext("2d").putImageData(run.surfaces.fromAbove(image, width, height, this.pixel), 0, 0);
+      this.draw();
+    });
+  }
+
   drawPoints(context) {
     const { point_colours: seen } = run;
     context.fillStyle = colour("points");
     for (let i = 0; i < run.points.length; i += 3) {
       if (run.coloured) context.fillStyle = `rgb(${seen[i]} ${seen[i + 1]} ${seen[i + 2]})`;
-      const [x, y] = this.place(run.points[i], run.points[i + 2]);
+      const [x, y] = this.place(run.points, i);
       context.fillRect(x - 0.75, y - 0.75, 1.5, 1.5);
     }
   }
@@ -56,8 +69,8 @@ class TopView {
     for (let i = 0; i < axes.length; ++i) {
       context.strokeStyle = colour(axisName(axes[i]));
       context.beginPath();
-      context.moveTo(...this.place(ends[6 * i], ends[6 * i + 2]));
-      context.lineTo(...this.place(ends[6 * i + 3], ends[6 * i + 5]));
+      context.moveTo(...this.place(ends, 6 * i));
+      context.lineTo(...this.place(ends, 6 * i + 3));
       context.stroke();
     }
   }
@@ -73,7 +86,7 @@ class TopView {
         broken = true;
         continue;
       }
-      const [x, y] = this.place(positions[i], positions[i + 2]);
+      const [x, y] = this.place(positions, i);
       if (broken) context.moveTo(x, y);
       else context.lineTo(x, y);
       broken = false;
@@ -85,15 +98,15 @@ class TopView {
   drawKeyframes(context) {
     context.strokeStyle = colour("accent");
     for (let i = 0; i < run.keyframes.length; i += 7) {
-      const [x, y] = this.place(run.keyframes[i], run.keyframes[i + 2]);
+      const [x, y] = this.place(run.keyframes, i);
       context.strokeRect(x - 2.5, y - 2.5, 5, 5);
     }
   }
 
   drawCamera(context) {
     const pose = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
-    const [x, y] = this.place(pose[0], pose[2]);
-    const ahead = forwardOf(pose);
+    const [x, y] = this.place(pose, 0);
+    const ahead = run.levelled(...forwardOf(pose));
     context.fillStyle = colour("accent");
     context.beginPath();
     context.arc(x, y, 5, 0, 2 * Math.PI);
@@ -111,7 +124,8 @@ class TopView {
 const kLayers = [
   { name: "points", label: "Points", ink: "points", there: () => run.points.length > 0 },
   { name: "lines", label: "Lines", ink: "", there: () => run.lines.axes.length > 0 },
-  { name: "planes", label: "Planes", ink: "", there: () => run.planes.axes.length > 0 && !byId("view").classList.contains("flat") },
+  { name: "surfaces", label: "Surfaces", there: () => Boolean(run.surfaces) },
+  { name: "planes", label: "Planes", ink: "", there: () => !run.surfaces && run.planes.axes.length > 0 && !byId("view").classList.contains("flat") },
   { name: "path", label: "Estimate", ink: "manhattan", there: () => run.trajectoryThere },
   { name: "truth", label: "Ground truth", ink: "truth", there: () => Boolean(run.truth) },
   { name: "keyframes", label: "Keyframes", ink: "accent", there: () => run.keyframes.length > 0 },
@@ -124,20 +138,21 @@ function forwardOf([, , , x, y, z, w]) {
   return [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
 }
 
-// Low and high corner of what is worth looking at: of points, of the path and of keyframes, each between the 2nd and
-// the 98th percentile, so that what strays does not shrink the room. Lines have no say.
+// Low and high corner, in the levelled map, of what is worth looking at: of points, of the path, of keyframes and of surfaces, each
+// between the 2nd and the 98th percentile, so that what strays does not shrink the room. Lines have no say.
 function boxOfRun() {
+  const lists = [[run.points, 3], [run.poses, 7], [run.keyframes, 7], [run.surfaces?.places ?? [], 3]].map(([list, size]) => {
+    const places = [], step = size * Math.max(1, Math.floor(list.length / size / 20000));
+    for (let i = 0; i < list.length; i += step) if (!Number.isNaN(list[i])) places.push(run.levelled(list[i], list[i + 1], list[i + 2]));
+    return places;
+  });
   const box = { low: [0, 0, 0], high: [0, 0, 0] };
   for (let axis = 0; axis < 3; ++axis) {
     const ends = [];
-    for (const [list, size] of [[run.points, 3], [run.poses, 7], [run.keyframes, 7]]) {
-      const values = [];
-      const step = size * Math.max(1, Math.floor(list.length / size / 20000));
-      for (let i = axis; i < list.length; i += step)
-        if (!Number.isNaN(list[i])) values.push(list[i]);
-      values.sort((a, b) => a - b);
-      const margin = Math.ceil(0.02 * (values.length - 1));  // at least one, of three or more
-      if (values.length > 0) ends.push(values[values.length > 2 ? margin : 0], values[values.length - 1 - (values.length > 2 ? margin : 0)]);
+    for (const places of lists) {
+      const values = places.map((place) => place[axis]).sort((a, b) => a - b);
+      const margin = values.length > 2 ? Math.ceil(0.02 * (values.length - 1)) : 0;  // at least one, of three or more
+      if (values.length > 0) ends.push(values[margin], values[values.length - 1 - margin]);
     }
     if (ends.length === 0) continue;
     box.low[axis] = Math.min(...ends);

@@ -2,11 +2,11 @@
 // Where the 3D view is looked at from: orbit by mouse, touch and keys, home, and along with the shown camera.
 
 class Viewpoint {
-  // world: the group in which the map stands; middle and radius: of what is to be seen; changed: asks for a picture.
-  constructor(canvas, world, middle, radius, changed) {
-    Object.assign(this, { world, middle, radius, changed });
+  // world: the group in which the map stands; seen: { middle, radius, corners } of what is to be seen; changed: asks for a picture.
+  constructor(canvas, world, seen, changed) {
+    Object.assign(this, { world, changed }, seen);
     this.follows = false;
-    this.camera = new THREE.PerspectiveCamera(50, 1, radius / 500, 60 * radius);
+    this.camera = new THREE.PerspectiveCamera(50, 1, this.radius / 500, 60 * this.radius);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", changed);
     this.controls.addEventListener("start", () => { this.moved = true; });
@@ -15,10 +15,10 @@ class Viewpoint {
   }
 
   // There is more to be seen. Whoever has not moved goes on seeing all of it.
-  grow(middle, radius) {
+  grow({ middle, radius, corners }) {
     const near = Math.abs(radius / this.radius - 1) < 0.05 && middle.distanceTo(this.middle) < 0.05 * radius;
     if (near) return;
-    Object.assign(this, { middle, radius });
+    Object.assign(this, { middle, radius, corners });
     Object.assign(this.camera, { near: radius / 500, far: 60 * radius });
     this.camera.updateProjectionMatrix();
     if (!this.moved && !this.follows) this.home();
@@ -30,12 +30,15 @@ class Viewpoint {
     else this.home();
   }
 
+  // Which way a camera of the map looks.
+  aheadOf(pose) { return new THREE.Vector3(...forwardOf(pose)).transformDirection(this.world.matrixWorld); }
+
   // Where the shown camera stands, and which way it looks over the floor.
   heading() {
     const pose = run.poses.subarray(7 * shown.row, 7 * shown.row + 7);
     const at = this.world.localToWorld(new THREE.Vector3(pose[0], pose[1], pose[2]));
-    const [x, , z] = forwardOf(pose);
-    return { at, angle: Math.atan2(x, -z) };
+    const { x, z } = this.aheadOf(pose);
+    return { at, angle: Math.atan2(x, z) };
   }
 
   behind() {
@@ -70,11 +73,17 @@ class Viewpoint {
     this.camera.updateProjectionMatrix();
   }
 
+  // From above and aside, as near as all corners are in the picture.
   home() {
     this.moved = false;
-    const reach = 1.9 * this.radius * Math.max(1, 0.85 / this.camera.aspect);
+    const from = new THREE.Vector3(-0.35, 0.75, 0.62).normalize(), right = new THREE.Vector3(0, 1, 0).cross(from).normalize(), up = from.clone().cross(right);
+    const high = Math.tan(this.camera.fov * Math.PI / 360) * 0.96, wide = high * this.camera.aspect;
+    const away = this.corners.map((corner) => {
+      const offset = corner.clone().sub(this.middle);
+      return offset.dot(from) + Math.max(Math.abs(offset.dot(right)) / wide, Math.abs(offset.dot(up)) / high);
+    });
     this.controls.target.copy(this.middle);
-    this.camera.position.copy(this.middle).add(new THREE.Vector3(-0.35, 0.75, 0.62).multiplyScalar(reach));
+    this.camera.position.copy(this.middle).addScaledVector(from, Math.max(...away, 0.2 * this.radius));
     this.controls.update();
     this.changed();
   }
@@ -93,8 +102,7 @@ class Viewpoint {
   // Looks from where a camera stood, the way it looked.
   lookFrom(pose) {
     const at = this.world.localToWorld(new THREE.Vector3(pose[0], pose[1], pose[2]));
-    const [x, y, z] = forwardOf(pose);
-    const ahead = new THREE.Vector3(x, -y, -z);
+    const ahead = this.aheadOf(pose);
     this.moved = true;
     this.camera.position.copy(at).addScaledVector(ahead, -0.15 * this.radius);
     this.controls.target.copy(at).addScaledVector(ahead, 0.4 * this.radius);

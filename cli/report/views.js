@@ -89,7 +89,7 @@ class Views {
     this.normalFigure.hidden = !this.view.normalImage;
     this.image.parentElement.style.aspectRatio = String(this.view.aspect);
     const away = this.view.row !== row ? `Picture of frame ${run.frames.text("index", this.view.row)}, the nearest kept. ` : "";
-    this.caption.textContent = `${away}${this.view.mapped} points and ${this.view.lines.filter((line) => line.mapped).length} segments belong to the map.`;
+    this.caption.textContent = `${away}${countOf(this.view.mapped, "point")} and ${countOf(this.view.lines.filter((line) => line.mapped).length, "segment")} belong to the map.`;
     this.sphere.show(this.view);
   }
 

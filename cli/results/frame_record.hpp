@@ -37,6 +37,7 @@ struct RunOutcome {
   std::vector<std::string> warnings;
   std::vector<std::string> views;        // frames as encode_frame_view gives them
   double wall_seconds = 0;               // of the whole run
+  double processor_seconds = 0;          // the same of all threads
   double final_pass_seconds = 0;         // of it, what followed the last frame
   double read_out = 0;                   // seconds of a rolling shutter; 0: none is known
   int keyframes_not_made = 0;            // live: frames that mapping was too far behind for

@@ -41,6 +41,7 @@ class Reader {
     }
     if (!run_.map.empty() && has(kColourFile))
       take(kColourFile, [&](const fs::path& path) { run_.colours = read_colours(path, run_.map); });
+    if (has(kModelFile)) take(kModelFile, [&](const fs::path& path) { run_.surfaces = read_glb(path); });
     if (has(kTruthFile)) take_poses(kTruthFile, run_.truth);
     if (has(kViewFile))
       take(kViewFile, [&](const fs::path& path) { run_.views = read_views(path, run_.problems); });

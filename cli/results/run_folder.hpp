@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/results/map_colours.hpp"
+#include "cli/results/textured_mesh.hpp"
 #include "sslam/io/files/csv_reader.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
@@ -42,6 +43,7 @@ struct RunFolder {
   io::Trajectory trajectory, keyframes, truth;
   Map<double> map;
   MapColours colours;
+  TexturedMesh surfaces;  // of `--dense`; empty: none
   std::vector<std::string> views;
   std::vector<std::string> problems;  // a line each: a file that is missing, damaged or flawed
 };

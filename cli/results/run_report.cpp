@@ -64,6 +64,7 @@ Json times_json(const RunOutcome& outcome) {
       outcome.wall_seconds > 0 ? static_cast<double>(outcome.frames.size()) / outcome.wall_seconds : 0;
   return {{"frames_per_second", rate},
           {"wall_seconds", outcome.wall_seconds},
+          {"processor_seconds", outcome.processor_seconds},
           {"final_pass_seconds", outcome.final_pass_seconds},
           {"frame_ms", quantiles(frame)},
           {"extraction_ms", quantiles(extraction)},

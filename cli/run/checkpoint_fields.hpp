@@ -39,6 +39,7 @@ class CheckpointFields {
     list(outcome.warnings, [this](std::string& line) { archive_(line); });
     list(outcome.views, [this](std::string& view) { archive_(view); });
     seconds(outcome.wall_seconds);
+    seconds(outcome.processor_seconds);
     archive_(outcome.checkpoints);
     seconds(outcome.checkpoint_seconds);
     list(outcome.resumed_at, [this](std::int64_t& index) { archive_(index); });

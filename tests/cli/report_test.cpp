@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/page_data.hpp"
 #include "cli/program.hpp"
 #include "cli/report/base64.hpp"
 #include "support/catch.hpp"
@@ -38,11 +39,7 @@ struct Room {
   [[nodiscard]] Outcome report() const { return run_program("report " + run.string()); }
   [[nodiscard]] std::string page() const { return text_of(run / "report.html"); }
   // The page's data.
-  [[nodiscard]] nlohmann::json data() const {
-    const std::string text = page(), begin = "<script id=\"data\" type=\"application/json\">";
-    const auto from = text.find(begin) + begin.size();
-    return nlohmann::json::parse(text.substr(from, text.find("</script>", from) - from));
-  }
+  [[nodiscard]] nlohmann::json data() const { return sslam::testing::page_data(run / "report.html"); }
   [[nodiscard]] std::size_t views() const {
     const std::string text = page();
     const auto from = text.find("<script id=\"views\"");

@@ -118,6 +118,13 @@ class Page {
     await mouse("mouseReleased", to, 0);
   }
 
+  click(at) { return this.drag(at, at); }
+
+  // The middle of an element, for the mouse.
+  middleOf(selector) {
+    return this.run(`(() => { const b = document.querySelector("${selector}").getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+  }
+
   async screenshot(path, clip = undefined) {
     const { data } = await this.send("Page.captureScreenshot", { format: "png", clip: clip && { ...clip, scale: 1 }, captureBeyondViewport: Boolean(clip) });
     if (path) writeFileSync(path, Buffer.from(data, "base64"));

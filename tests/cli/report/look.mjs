@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens the reports of a tracked run, of one that gets lost, of one that tracks nothing and of a damaged one, and uses
-// them.
+// Opens the reports of a tracked run, of one that gets lost, of one that tracks nothing and of a damaged one, and the
+// comparison of two, and uses them.
 // Usage: look.mjs SSLAM [FOLDER for screenshots]
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -8,6 +8,7 @@ import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSyn
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, kNoGl, kSoftwareGl } from "./browser.mjs";
+import { useComparison } from "./use_comparison.mjs";
 
 const [, , sslam, pictures] = process.argv;
 const scratch = mkdtempSync(join(tmpdir(), "sslam_report_"));
@@ -20,13 +21,8 @@ function call(code, ...args) {
 
 function picture(name) { return pictures && join(pictures, `${name}.png`); }
 
-// The middle of an element, for the mouse.
-function middleOf(page, selector) {
-  return page.run(`(() => { const b = document.querySelector("${selector}").getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
-}
-
 async function look(browser, run, options, use) {
-  const page = await browser.open(`file://${join(run, "report.html")}`, options.size, options.dark);
+  const page = await browser.open(`file://${run.endsWith(".html") ? run : join(run, "report.html")}`, options.size, options.dark);
   await page.until("document.documentElement.dataset.ready");
   await use(page);
   assert.deepEqual(page.complaints, [], `complaints of ${run}`);
@@ -49,7 +45,7 @@ async function useTracked(page) {
   assert.match(await page.run("document.querySelector('.chart .value').textContent"), /^[0-9.e-]+ m$/);
   assert.ok(await page.run("views.view.points.length > 100 && views.view.lines.length > 10 && views.view.axes.length === 3"));
   await page.run("document.querySelector('.chart .plot').scrollIntoView({ block: 'center' })");
-  const chart = await middleOf(page, ".chart .plot");
+  const chart = await page.middleOf(".chart .plot");
   await page.drag(chart, [chart[0] + 2, chart[1]]);
   assert.ok(await page.run("Math.abs(shown.row - 30) < 6"));
   await page.run("scrollTo(0, 0)");
@@ -57,11 +53,11 @@ async function useTracked(page) {
   // The mouse orbits, layers come and go, the camera is followed.
   const look = "view3d.viewpoint.camera.position.toArray()";
   const before = await page.run(look);
-  const middle = await middleOf(page, "#canvas");
+  const middle = await page.middleOf("#canvas");
   await page.drag(middle, [middle[0] + 120, middle[1] + 30]);
   assert.notDeepEqual(await page.run(look), before);
   const whole = await page.screenshot(picture("orbited"));
-  const layers = await page.run("[...document.querySelectorAll('#layers [data-layer]')].map((b) => b.dataset.layer)");
+  const layers = await page.run("[...document.querySelectorAll('#layers [data-layer]:not([hidden])')].map((b) => b.dataset.layer)");
   for (const name of layers) {
     await page.run(`document.querySelector("[data-layer=${name}]").click()`);
     assert.equal(await page.run(`view3d.layers.${name}.visible`), false);
@@ -90,7 +86,22 @@ function placeOf(page, kind) {
   })()`);
 }
 
-async function click(page, at) { await page.drag(at, at); }
+// The dense model stands in place of the rectangles, with its texture, and hides what is behind it.
+async function useSurfaces(page) {
+  assert.equal(await page.run("document.querySelector('[data-layer=surfaces]').hidden || !document.querySelector('[data-layer=planes]').hidden"), false);
+  await page.until("view3d.surfaces.material.map && view3d.surfaces.material.map.image.naturalWidth > 100");
+  const hidden = `Array.from({ length: run.points.length / 3 }, (_, i) => picker.projection()(...run.points.subarray(3 * i, 3 * i + 3)))
+    .filter(({ x, y, w }) => w > 0 && picker.at(x, y)?.kind === "surface").length`;
+  assert.ok(await page.run(`${hidden} > 0`));
+  await page.click(await placeOf(page, "surface"));
+  assert.match(await page.run("byId('picked').innerText"), /^Surface \d+.*m² were seen, at right angles to.*Fly there/s);
+  await page.run("byId('picked').querySelector('.close').click()");
+  const shown = await page.screenshot(picture("surfaces"));
+  await page.run("document.querySelector('[data-layer=surfaces]').click()");
+  assert.equal(await page.run(hidden), 0);
+  assert.notEqual(await page.screenshot(), shown);
+  await page.run("document.querySelector('[data-layer=surfaces]').click()");
+}
 
 // Colours, picking, measuring, saving, and the frame of the address.
 async function useMap(page) {
@@ -113,17 +124,18 @@ async function useMap(page) {
   for (const [kind, words] of [["point", /^Point \d+.*seen by \d+ keyframes/s], ["line", /^Line \d+.*long, along/s], ["keyframe", /^Keyframe \d+.*sees \d+ points/s]]) {
     const at = await placeOf(page, kind);
     assert.ok(at, `no ${kind} in view`);
-    await click(page, at);
+    await page.click(at);
     assert.match(await page.run("byId('picked').innerText"), words);
   }
   assert.ok(await page.run("run.pointWitnesses.counts.every((count, i) => count >= run.pointWitnesses.keyframesOf(i).length)"));
   await page.screenshot(picture("picked"));
+  await useSurfaces(page);
   // Twice the same place is no distance; two places are.
   await page.run("byId('measure').click()");
   const point = await placeOf(page, "point"), line = await placeOf(page, "line");
-  for (const at of [point, point]) await click(page, at);
+  for (const at of [point, point]) await page.click(at);
   assert.match(await page.run("byId('picked').innerText"), /\n0 m/);
-  for (const at of [point, line]) await click(page, at);
+  for (const at of [point, line]) await page.click(at);
   assert.match(await page.run("byId('picked').innerText"), /\n[0-9.]+ m/);
   assert.doesNotMatch(await page.run("byId('picked').innerText"), /\n0 m/);
   await page.run("byId('measure').click()");
@@ -192,8 +204,16 @@ async function main() {
       await page.run("shown.set(42)");
       assert.match(await page.run("byId('frame-state').textContent"), /^lost: too few matches/);
       assert.equal(await page.run("typeof THREE !== 'undefined' && view3d.eye.visible"), false);
+      assert.equal(await page.run("run.surfaces === null && !document.querySelector('[data-layer=planes]').hidden"), await page.run("typeof THREE !== 'undefined'"));
       await page.screenshot(picture("lost"));
     });
+    const page = join(scratch, "compare.html");
+    call(0, "report", run, lost, "-o", page);
+    await look(browser, page, {}, async (open) => {
+      await useComparison(open);
+      await open.screenshot(picture("comparison"));
+    });
+    await look(browser, page, { size: { width: 390, height: 844 }, dark: true }, async (phone) => { await phone.screenshot(picture("comparison_phone")); });
     damage(lost);
     await look(browser, lost, {}, async (page) => {
       assert.match(await page.run("byId('story').textContent"), /map\.sslam: is missing.*views\.bin: is cut off/);
@@ -213,7 +233,12 @@ async function main() {
     await look(plain, run, {}, async (page) => {
       assert.match(await page.run("byId('notice').textContent"), /the map is seen from above/);
       await page.press("End");
+      await page.until("view3d.above");
+      const shown = await page.run("byId('canvas').toDataURL()");
+      assert.ok(await page.run("new Set(new Uint32Array(view3d.above.getContext('2d').getImageData(0, 0, view3d.above.width, view3d.above.height).data.buffer)).size > 100"));
       await page.screenshot(picture("no_webgl"));
+      await page.run("document.querySelector('[data-layer=surfaces]').click()");
+      assert.notEqual(await page.run("byId('canvas').toDataURL()"), shown);
     });
   } finally {
     await plain.close();

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Uses the page that compares two runs.
+import assert from "node:assert/strict";
+
+export async function useComparison(page) {
+  assert.equal(await page.run("document.querySelectorAll('#runs tr').length"), 3);
+  assert.ok(await page.run("Array.from(document.querySelectorAll('#runs a'), (a) => a.getAttribute('href')).join() === 'demo/run/report.html,lost/report.html'"));
+  assert.match(await page.run("byId('runs').innerText"), /ATE, m.*run\s.*lost\s/s);
+  assert.ok(await page.run("document.querySelectorAll('#charts .chart').length >= 3 && document.querySelectorAll('#states canvas').length === 2"));
+  assert.match(await page.run("byId('states-legend').innerText"), /lost/);
+  const picked = await page.run("byId('canvas').toDataURL()");
+  await page.run("document.querySelector('.chart .plot').scrollIntoView({ block: 'center' })");
+  const at = await page.middleOf(".chart .plot");
+  await page.click([at[0] - 100, at[1]]);
+  assert.ok(await page.run("moment.seconds < kEnd / 2 && moment.seconds > 0"));
+  assert.notEqual(await page.run("byId('canvas').toDataURL()"), picked, "the dots have not moved");
+  assert.match(await page.run("document.querySelector('.chart .value').textContent"), /^[0-9.e-]+ m$/);
+  const before = await page.run("byId('canvas').toDataURL()");
+  await page.run("byId('canvas').scrollIntoView({ block: 'center' })");
+  const middle = await page.middleOf("#canvas");
+  await page.drag(middle, [middle[0] + 80, middle[1] + 20]);
+  const turned = await page.run("byId('canvas').toDataURL()");
+  assert.notEqual(turned, before);
+  await page.run("document.querySelector('#layers button').click()");
+  assert.notEqual(await page.run("byId('canvas').toDataURL()"), turned);
+  await page.press("t");
+}
