@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/eval/eval_figure.hpp"
 #include "cli/results/eval_report.hpp"
 #include "cli/results/image_names.hpp"
 #include "cli/results/result_set.hpp"
@@ -133,8 +134,24 @@ io::TimeOffset bring_by_motion(const std::string& file, Compared& both) {
   return found;
 }
 
+// What --plot draws.
+struct Plotted {
+  io::Trajectory truth;
+  std::vector<PlottedEstimate> estimates;
+};
+
+void note_for_plot(const std::string& file, const Compared& both, const io::Evaluation& evaluation,
+                   Plotted& plotted) {
+  const io::PairedPoses paired = io::pair_poses(both.truth, both.estimate, evaluation.options.max_difference);
+  if (plotted.estimates.empty()) plotted.truth = both.truth;
+  plotted.estimates.push_back({file, io::aligned(both.estimate, evaluation.truth_from_estimate),
+                               io::stamps_of(paired.estimate),
+                               io::position_errors(paired, evaluation.truth_from_estimate),
+                               io::rotation_errors(paired, io::rotation_offset(paired))});
+}
+
 nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& settings,
-                                const Reference& reference) {
+                                const Reference& reference, Plotted& plotted) {
   io::Warnings warnings;
   Compared both = take_both(file, settings, reference, warnings);
   io::Trajectory &estimate = both.estimate, &against = both.truth;
@@ -150,11 +167,7 @@ nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& set
                 offset->likeness);
   std::fputs(evaluation_table(evaluation).c_str(), stdout);
   if (settings.estimates.size() > 1) std::fputs("\n", stdout);
-  if (!settings.plot.empty()) {
-    io::write_top_view(settings.plot,
-                       io::comparison_view(against, estimate, evaluation.truth_from_estimate,
-                                           estimate.front().stamp, estimate.back().stamp, file));
-  }
+  if (!settings.plot.empty()) note_for_plot(file, both, evaluation, plotted);
   nlohmann::ordered_json json = {{"ground_truth", settings.truth}, {"estimate", file}};
   if (offset) json["time_offset"] = {{"offset", offset->offset}, {"likeness", offset->likeness}};
   json.update(evaluation_json(evaluation));
@@ -162,9 +175,6 @@ nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& set
 }
 
 void run_eval(EvalSettings settings) {
-  if (!settings.plot.empty() && settings.estimates.size() > 1)
-    throw CLI::ValidationError("--plot",
-                               "draws one estimate, found " + std::to_string(settings.estimates.size()));
   const Reference reference = load_reference(settings);
   const TruthSource& truth = reference.source;
   print_warnings(truth.warnings);
@@ -174,19 +184,26 @@ void run_eval(EvalSettings settings) {
   if (options.frames == 0) options.frame_stamps = truth.frame_stamps;
   if (!settings.deltas.empty()) options.deltas.clear();
   for (const std::string& text : settings.deltas) options.deltas.push_back(parse_delta(text).value());
+  Plotted plotted;
+  const auto plot = [&] {
+    if (!plotted.estimates.empty())
+      write_figure(settings.plot, eval_figure(plotted.truth, plotted.estimates, options.seconds_per_stamp));
+  };
   if (settings.estimates.size() == 1) {
-    const nlohmann::ordered_json json = eval_one(settings.estimates.front(), settings, reference);
+    const nlohmann::ordered_json json = eval_one(settings.estimates.front(), settings, reference, plotted);
+    plot();
     if (!settings.json.empty()) write_json(settings.json, json);
     return;
   }
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : settings.estimates) {
     try {
-      all.push_back(eval_one(file, settings, reference));
+      all.push_back(eval_one(file, settings, reference, plotted));
     } catch (const Error& error) {
       print_error(error.what());  // the others have their figures nevertheless
     }
   }
+  plot();
   if (!settings.json.empty())
     write_json(settings.json, {{"ground_truth", settings.truth}, {"estimates", all}});
   if (all.size() < settings.estimates.size()) throw Stop{ExitCode::kFailed};
@@ -225,7 +242,11 @@ void add_eval_command(CLI::App& app) {
   add_choice(*eval, "--axes", settings->axes, kAxesNames,
              "axes of GROUNDTRUTH: y-down, y-up (ICL-NUIM as published), auto; default auto");
   eval->add_option("--json", settings->json, "write the figures to this file")->type_name("FILE");
-  eval->add_option("--plot", settings->plot, "draw both trajectories from above into this SVG file")
+  eval->add_option("--plot", settings->plot,
+                   "draw paths, errors, positions and angles on one page: a file .svg, .pdf or .png")
+      ->check([](const std::string& file) {
+        return is_figure_name(file) ? std::string() : "'" + file + "' does not end in .svg, .pdf or .png";
+      })
       ->type_name("FILE");
   eval->callback([settings] { run_eval(*settings); });
 }

@@ -56,7 +56,7 @@ constexpr Example kExamples[] = {
      "  sslam run room --preset paper --set keyframes.max_turn=10\n  sslam run room --foxglove 8765\n"},
     {"eval", "  sslam eval groundtruth.txt trajectory.txt\n  sslam eval room results --plot compared.svg\n"},
     {"normals", "  sslam normals photo.jpg --out normals\n"},
-    {"report", "  sslam report results\n"},
+    {"report", "  sslam report results\n  sslam report a b -o compare.html\n"},
     {"view", "  sslam view results\n  sslam view results/map.sslam\n"},
     {"export", "  sslam export results --format colmap --out model\n"},
     {"batch", "  sslam batch suite.toml --jobs 4\n"},

@@ -9,6 +9,7 @@ const kSteps = 60;
 const browser = new Browser(kSoftwareGl);
 const page = await browser.open(`file://${join(run, "report.html")}`, { width: 1400, height: 900 });
 await page.until("document.documentElement.dataset.ready");
+await page.until("!run.surfaces || view3d.surfaces.material.map");
 const frames = await page.run("run.frames.count");
 const show = async (row) => {
   await page.run(`byId('slider').value = ${row}; byId('slider').dispatchEvent(new Event('input'))`);

@@ -13,6 +13,7 @@
 
 #include "cli/calibrate/board.hpp"
 #include "cli/shell/exit_code.hpp"
+#include "cli/shell/pdf_page.hpp"
 #include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
@@ -75,24 +76,8 @@ struct Sheet {
     drawing += cv::format("%.4f %.4f %.4f %.4f re\n", left + r.x, sheet.height - top - r.y - r.height,
                           r.width, r.height);
   drawing += cv::format("f\nBT /F 3.5 Tf %.2f 7 Td (%s) Tj ET\n", left, print.text.c_str());
-  const std::array<std::string, 5> objects{
-      "<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
-      "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-      cv::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 %.4f %.4f] /Contents 4 0 R "
-                 "/Resources << /Font << /F 5 0 R >> >> >>",
-                 sheet.width * kPoint, sheet.height * kPoint),
-      cv::format("<< /Length %zu >>\nstream\n", drawing.size()) + drawing + "endstream",
-      "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"};
-  std::string pdf = "%PDF-1.4\n",
-              table = cv::format("xref\n0 %zu\n0000000000 65535 f \n", objects.size() + 1);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    table += cv::format("%010zu 00000 n \n", pdf.size());
-    pdf += cv::format("%zu 0 obj\n", i + 1) + objects[i] + "\nendobj\n";
-  }
-  const std::size_t start = pdf.size();
-  return pdf + table +
-         cv::format("trailer\n<< /Size %zu /Root 1 0 R >>\nstartxref\n%zu\n%%%%EOF\n", objects.size() + 1,
-                    start);
+  return pdf_page(sheet.width * kPoint, sheet.height * kPoint, drawing,
+                  "/ViewerPreferences << /PrintScaling /None >> ");
 }
 
 [[nodiscard]] inline std::string svg_of(const PrintedBoard& print, const Sheet& sheet) {

@@ -11,7 +11,7 @@ function showSummary() {
   if (metrics.frames !== undefined) {
     const share = Number(metrics.share_tracked);
     const later = metrics.tracked - metrics.tracked_live;
-    tile(`${figure(100 * share)} %`, "", `${metrics.tracked} of ${metrics.frames} frames tracked${later > 0 ? `: ${metrics.tracked_live} live, ${later} afterwards` : ""}`, share < 0.9);
+    tile(`${figure(100 * share)} %`, "", later > 0 ? `of ${metrics.frames} frames: ${metrics.tracked_live} live, ${later} afterwards` : `${metrics.tracked} of ${metrics.frames} frames tracked`, share < 0.9);
   }
   const errors = metrics.trajectory;
   if (errors) {

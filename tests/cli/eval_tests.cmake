@@ -47,7 +47,9 @@ sslam_cli_test(NAME "eval turns y over on demand" ARGS eval ${folder}/upside_dow
 sslam_cli_test(NAME "eval writes JSON" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --json ${folder}/figures.json
                OUT "ATE" FILE ${folder}/figures.json REGEX "\"scale\": 0.(5|4999999).*\"ate_m\".*\"rmse\".*\"rotation_deg\".*\"rpe\"")
 sslam_cli_test(NAME "eval draws a plot" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --plot ${folder}/plot.svg
-               OUT "ATE" FILE ${folder}/plot.svg REGEX "^<svg .*ground truth.*estimate.*</svg>")
+               OUT "ATE" FILE ${folder}/plot.svg REGEX "^<svg .*ground truth.*doubled.txt.*position error, m.*yaw, degrees.*</svg>")
+sslam_cli_test(NAME "eval draws a PDF" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --plot ${folder}/plot.pdf
+               OUT "ATE" FILE ${folder}/plot.pdf REGEX "^%PDF-1.4.*position error, m.*%%EOF")
 
 sslam_cli_test(NAME "eval of a missing file" ARGS eval ${folder}/none.txt ${folder}/truth.txt CODE 1
                ERR "^sslam: error: .*none.txt: cannot open: No such file or directory\n$")
@@ -66,8 +68,10 @@ sslam_cli_test(NAME "eval puts stamps in order" ARGS eval ${folder}/truth.txt ${
                "disordered.txt: 1 repeated stamps, the first at 104.500000: the first pose of each is kept")
 sslam_cli_test(NAME "eval with an unwritable JSON" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --json ${folder}/truth.txt/a.json
                CODE 1 ERR "sslam: error: .*a.json: cannot write: Not a directory")
-sslam_cli_test(NAME "eval with an unwritable plot" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --plot ${folder}
-               CODE 1 ERR "sslam: error: .*: cannot write: is a folder")
+sslam_cli_test(NAME "eval with an unwritable plot" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --plot ${folder}/truth.txt/a.png
+               CODE 1 OUT "ATE" ERR "sslam: error: .*a.png: cannot write: Not a directory")
+sslam_cli_test(NAME "eval with a plot of another kind" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt --plot ${folder}/plot.jpg
+               CODE 2 ERR "sslam: error: --plot: .*plot.jpg' does not end in .svg, .pdf or .png")
 sslam_cli_test(NAME "eval with an unknown alignment" ARGS eval a b --align affine CODE 2 ERR "sslam: error: --align")
 sslam_cli_test(NAME "eval with a wrong step" ARGS eval a b --delta 1m CODE 2
                ERR "sslam: error: --delta: '1m' is not a step such as 1f or 0.5s")
@@ -109,8 +113,8 @@ sslam_cli_test(NAME "eval of several estimates, of which one is of no use" ARGS 
                OUT "scale 0\\.5" ERR "^sslam: error: .*empty.txt: holds no pose")
 sslam_cli_test(NAME "eval of an estimate that stands still" ARGS eval ${folder}/truth.txt ${folder}/still.txt CODE 1
                ERR "^sslam: error: alignment with scale needs motion: the estimate stands still\n$")
-sslam_cli_test(NAME "eval draws one estimate alone" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt ${folder}/truth.txt --plot ${folder}/plot.svg CODE 2
-               ERR "sslam: error: --plot: draws one estimate, found 2")
+sslam_cli_test(NAME "eval draws several estimates" ARGS eval ${folder}/truth.txt ${folder}/doubled.txt ${folder}/truth.txt --plot ${folder}/plots.svg
+               OUT "ATE" FILE ${folder}/plots.svg REGEX "ground truth.*>[^<]*doubled.txt<.*>[^<]*truth.txt<")
 
 # A folder in TUM layout is its own ground truth, and tells how many frames there were.
 set(dataset ${folder}/tum)
