@@ -21,6 +21,8 @@
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/results/scale_record.hpp"
+#include "cli/results/straight_images.hpp"
+#include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/maps/colmap_writer.hpp"
 #include "sslam/io/trajectories/kitti.hpp"
@@ -33,7 +35,8 @@ namespace fs = std::filesystem;
 struct ExportSettings {
   std::string run;
   std::string format;
-  std::string out;  // empty: a folder of the format's name in the run's
+  std::string out;      // empty: a folder of the format's name in the run's
+  bool images = false;  // write the keyframes' images too, without the bend of the lens
 };
 
 // What is wrong with `file`, where anything is; else that the run has tracked nothing.
@@ -91,21 +94,31 @@ void warn_of_wide_lens(const RunFolder& run) {
       " degrees across: undistort the images to it before they are used");
 }
 
-std::string export_colmap(const RunFolder& run, const fs::path& out) {
+// ", 17 images" where they were asked for.
+std::string export_images(const ExportSettings& settings, const RunFolder& run, const fs::path& stage) {
+  if (!settings.images) return {};
+  const std::size_t count = write_straight_images(run, keyframe_images(run), stage / kStraightFolder);
+  return ", " + std::to_string(count) + " undistorted images";
+}
+
+std::string export_colmap(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {
   const KeyframeImages images = keyframe_images(run);
   const std::vector<io::Colour> colours = point_colours(run);
   const io::ColmapCounts counts = io::write_colmap_model(
       out, run.map, {images.names, size_in(run, "working_size"), size_in(run, "image_size"), colours});
   print_warnings(images.warnings);
-  if (!is_lens_straight(run))
-    print_note("the model's features and camera are free of lens distortion: give COLMAP undistorted images");
+  if (!is_lens_straight(run) && !settings.images)
+    print_note(
+        "the model's features and camera are free of lens distortion: give COLMAP undistorted images, "
+        "which --images writes");
   return "cameras, images (" + std::to_string(counts.images) + " keyframes, " +
          std::to_string(counts.observations) + " observations), points3D (" + std::to_string(counts.points) +
-         " points), each as .txt and .bin";
+         " points), each as .txt and .bin" + export_images(settings, run, out);
 }
 
-std::string export_nerfstudio(const RunFolder& run, const fs::path& stage, const fs::path& out) {
-  const NerfstudioCounts counts = write_nerfstudio(run, stage, out);
+std::string export_nerfstudio(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
+                              const fs::path& out) {
+  const NerfstudioCounts counts = write_nerfstudio(run, stage, out, settings.images);
   if (counts.strangers > 0)
     print_warning(std::to_string(counts.strangers) +
                   " keyframes are in no row of frames.csv (an earlier run's?): left out, since their images "
@@ -113,9 +126,10 @@ std::string export_nerfstudio(const RunFolder& run, const fs::path& stage, const
   if (counts.missing > 0)
     print_note(
         "put " + std::to_string(counts.missing) + " images into " + (out / "images").string() +
-        ", by the names in transforms.json: the run's dataset is a video or a bag, or no longer there");
+        ", by the names in transforms.json, or let --images write them: the run's dataset is a video or a "
+        "bag, or no longer there");
   return "transforms.json (" + std::to_string(counts.images) + " keyframes), points.ply (" +
-         std::to_string(counts.points) + " points)";
+         std::to_string(counts.points) + " points)" + export_images(settings, run, stage);
 }
 
 // The model of --dense as it is, else the sparse map.
@@ -148,9 +162,10 @@ std::string export_floor_plan(const ExportSettings& settings, const RunFolder& r
 
 std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
                        const fs::path& out) {
-  if (settings.format == "colmap" || settings.format == "nerfstudio") warn_of_wide_lens(run);
-  if (settings.format == "colmap") return export_colmap(run, stage);
-  if (settings.format == "nerfstudio") return export_nerfstudio(run, stage, out);
+  const bool colmap = settings.format == "colmap", nerfstudio = settings.format == "nerfstudio";
+  if ((colmap || nerfstudio) && !settings.images) warn_of_wide_lens(run);
+  if (colmap) return export_colmap(settings, run, stage);
+  if (nerfstudio) return export_nerfstudio(settings, run, stage, out);
   if (settings.format == "glb") return export_glb(settings, run, stage);
   if (settings.format == "floorplan") return export_floor_plan(settings, run, stage);
   if (settings.format == "mcap") {
@@ -163,6 +178,8 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
 }
 
 void run_export(const ExportSettings& settings) {
+  if (settings.images && settings.format != "colmap" && settings.format != "nerfstudio")
+    throw UsageError("--images: goes with --format colmap or nerfstudio, found " + settings.format);
   const RunFolder run = read_run_folder(settings.run);
   const fs::path out =
       settings.out.empty() ? fs::path(settings.run) / settings.format : fs::path(settings.out);
@@ -199,6 +216,9 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("-o,--out", s->out, "Folder for the files; default one of the format's name in the run's")
       ->type_name("DIR");
+  command->add_flag(
+      "--images", s->images,
+      "Of colmap and nerfstudio: write the keyframes' images as well, undistorted, into images");
   command->callback([s] { run_export(*s); });
 }
 

@@ -23,7 +23,7 @@ class Scene3D {
     this.hidden = new Set();
     this.textures = new Map();  // of keyframes, by row
     this.marked = [];
-    this.seenColours = run.coloured;
+    this.seenColours = true;  // as soon as there are any
     this.pathColours = "state";
     this.measure();
     this.viewpoint = new Viewpoint(canvas, this.world, this.seen, () => this.request());

@@ -27,7 +27,7 @@ LandmarkColour sample(const cv::Mat& picture, const Vec2<double>& pixel) {
   return io::Colour{byte(mean[2]), byte(mean[1]), byte(mean[0])};
 }
 
-LandmarkColour median(std::vector<io::Colour>& seen) {
+LandmarkColour median_colour(std::vector<io::Colour>& seen) {
   if (seen.empty()) return std::nullopt;
   io::Colour middle{};
   std::vector<std::uint8_t> values(seen.size());
@@ -88,7 +88,7 @@ void FeatureColours::note(const Frame<double>& frame, const cv::Mat& picture, co
       const Vec2<double> at = (1 - share) * line.segment.start + share * line.segment.end;
       if (const auto colour = sample(picture, camera.distort_pixel(at))) along.push_back(*colour);
     }
-    seen.lines.push_back(median(along));
+    seen.lines.push_back(median_colour(along));
   }
   frames_[{frame.index, frame.stamp}] = std::move(seen);
 }
@@ -146,7 +146,7 @@ MapColours FeatureColours::of(const Map<double>& map) const {
       for (const Observation& o : landmark.observations)
         if (const Features* const from = features[Map<double>::index(o.keyframe)])
           if (const auto& colour = (from->*of_frame)[Map<double>::index(o.feature)]) seen.push_back(*colour);
-      colours.push_back(landmark.alive ? median(seen) : std::nullopt);
+      colours.push_back(landmark.alive ? median_colour(seen) : std::nullopt);
     }
     return colours;
   };

@@ -14,6 +14,7 @@
 #include "cli/input/open_images.hpp"
 #include "cli/results/keyframe_images.hpp"
 #include "cli/results/run_folder.hpp"
+#include "cli/results/straight_images.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/maps/map_writer.hpp"
 
@@ -86,15 +87,21 @@ inline Json camera_of(const RunFolder& run) {
 
 }  // namespace nerfstudio_detail
 
-// Into `stage`, from where the files are brought to `out`: images are named as seen from there. Throws Error.
+// Into `stage`, from where the files are brought to `out`: images are named as seen from there. straight: by
+// those that write_straight_images writes into `images` beside it. Throws Error.
 inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesystem::path& stage,
-                                         const std::filesystem::path& out) {
+                                         const std::filesystem::path& out, bool straight) {
   namespace detail = nerfstudio_detail;
   NerfstudioCounts counts;
   detail::Json json = detail::camera_of(run);
   const KeyframeImages images = keyframe_images(run);
-  const auto settings = run.metrics.at("settings");
-  const auto files = detail::image_files(settings.value("dataset", std::string()));
+  std::map<std::string, std::filesystem::path> files;
+  if (straight) {
+    for (const char* coefficient : {"k1", "k2", "k3", "p1", "p2"}) json[coefficient] = 0.0;
+    for (const std::string& name : images.names) files[name] = out / kStraightFolder / name;
+  } else {
+    files = detail::image_files(run.metrics.at("settings").value("dataset", std::string()));
+  }
   json["frames"] = detail::Json::array();
   for (const auto& keyframe : run.map.keyframes) {
     if (!keyframe.alive()) continue;

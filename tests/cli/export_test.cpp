@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -197,6 +198,52 @@ TEST_CASE("export writes what nerfstudio reads: the images' camera, poses with y
     CHECK(seen > 20);
   }
   CHECK(text_of(out / "points.ply").find("element vertex ") != std::string::npos);
+}
+
+TEST_CASE(
+    "export --images writes the keyframes' images without the bend of the lens, and a camera without it") {
+  const ScratchFolder scratch;
+  const fs::path bent = scratch.path() / "bent", run = scratch.path() / "run", out = scratch.path() / "out";
+  // The shared room through another lens.
+  REQUIRE(run_program("synth " + bent.string() + " --quiet --frames " + std::to_string(kFrames) +
+                      " --seed 3 --size 480x360 --lens -0.2,0.05")
+              .code == 0);
+  REQUIRE(run_program("run " + bent.string() + " --quiet --normals none --calibration fixed --out " +
+                      run.string())
+              .code == 0);
+  for (const char* format : {"nerfstudio", "colmap"}) {
+    const Outcome outcome =
+        export_run(run, std::string("--images --format ") + format + " --out " + out.string());
+    INFO(outcome.text);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.text.find(" undistorted images") != std::string::npos);
+    CHECK(outcome.text.find("note") == std::string::npos);
+  }
+  const auto json = nlohmann::json::parse(text_of(out / "transforms.json"));
+  CHECK(json["k1"] == 0);
+  REQUIRE(json["frames"].size() > 2);
+  const ColmapModel model = read_model(out);
+  for (const auto& frame : json["frames"]) {
+    const std::string path = frame["file_path"];
+    const std::string name = fs::path(path).filename();
+    CHECK(path == "images/" + name);
+    CHECK(std::any_of(model.images.begin(), model.images.end(),
+                      [&](const auto& entry) { return entry.second.name == name; }));
+    const auto middle_of = [](const fs::path& file) {
+      const cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
+      REQUIRE(image.size() == cv::Size(480, 360));
+      return image(cv::Rect(40, 40, 400, 280)).clone();
+    };
+    const cv::Mat straight = middle_of(out / path), wanted = middle_of(room() / "rgb" / name),
+                  through_lens = middle_of(bent / "rgb" / name);
+    CHECK(cv::norm(straight, wanted, cv::NORM_L1) < 0.5 * cv::norm(through_lens, wanted, cv::NORM_L1));
+  }
+  require_misused(export_run(run, "--images --format ply"),
+                  "--images: goes with --format colmap or nerfstudio");
+  fs::remove_all(bent);
+  require_refused(export_run(run, "--images --format colmap --out " + (out / "gone").string()),
+                  bent.string());
+  CHECK_FALSE(fs::exists(out / "gone/cameras.txt"));
 }
 
 TEST_CASE("export writes trajectories as TUM's and KITTI's tools read them") {
