@@ -86,7 +86,7 @@ class Panel {
       figure_.lines.push_back({{at(value, y_.low), at(value, y_.high)}, kGrid, 1});
       text(at(value, y_.low) + Vec2<double>(0, 15), number, FigureAnchor::kMiddle, kQuiet);
     });
-    for_ticks(y_, height_ / 35, [&](double value, const std::string& number) {
+    for_ticks(y_, height_ / 25, [&](double value, const std::string& number) {
       figure_.lines.push_back({{at(x_.low, value), at(x_.high, value)}, kGrid, 1});
       text(at(x_.low, value) + Vec2<double>(-6, 4), number, FigureAnchor::kEnd, kQuiet);
     });

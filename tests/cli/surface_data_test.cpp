@@ -99,7 +99,7 @@ TEST_CASE(
     CHECK(outcome.text.find("model.glb: " + what) != std::string::npos);
     const auto data = page_data(copy.out / "report.html");
     CHECK_FALSE(data.contains("surfaces"));
-    CHECK(data["planes"]["axes"]["base64"].get<std::string>().size() > 0);
+    CHECK(data.contains("planes"));
   };
   damaged(sound.substr(0, sound.size() / 2), "ends too early");
   damaged("glTF", "ends too early");
