@@ -92,9 +92,9 @@ SynthReport synthesise(const SynthSettings& asked) {
   SynthSettings settings = asked;  // and its folder is the one beside, until all is written
   const bool plain =
       settings.house.world == synth::World::kManhattan || settings.house.world == synth::World::kTurned;
-  if (settings.house.rooms == 3 && !(plain && settings.house.path == synth::PathKind::kLoop)) {
+  if (settings.house.rooms > 1 && !(plain && settings.house.path == synth::PathKind::kLoop)) {
     throw Error(
-        "three rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
+        "several rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
   }
   if (settings.read_out * settings.rate > 1.0 + 1e-9) {
     char text[128];

@@ -47,12 +47,11 @@ void add_scene_options(CLI::App& synth, SynthSettings& s) {
       synth, "--world", s.house.world, kWorldNames,
       "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
       "between walls); the last two for a single room; default manhattan");
-  synth.add_option("--rooms", s.house.rooms, "1, or 3 along a corridor; default 1")
-      ->check(CLI::IsMember({1, 3}));
-  add_choice(
-      synth, "--path", s.house.path, kPathNames,
-      "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); three rooms are "
-      "always toured; default loop");
+  synth.add_option("--rooms", s.house.rooms, "1 to 50, several of them along corridors; default 1")
+      ->check(CLI::Range(1, synth::kMostRooms).description(""));
+  add_choice(synth, "--path", s.house.path, kPathNames,
+             "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); several rooms "
+             "are always toured; default loop");
   synth.add_option("--speed", s.house.motion.speed, "metres per second; default 0.5")
       ->check(between(0.01, 5.0));
   synth.add_option("--tremor", s.house.motion.tremor, "of the hand; 0: none, default 1")

@@ -21,7 +21,7 @@ sslam_synth_refuses(--fps inf "expected a number between")
 sslam_synth_refuses(--blur 2 "between 0 and 1")
 sslam_synth_refuses(--size 640 "'640' is not a size such as 640x480")
 sslam_synth_refuses(--size 640x480x3 "is not a size")
-sslam_synth_refuses(--rooms 2 "2 not in")
+sslam_synth_refuses(--rooms 51 "51 not in range")
 sslam_synth_refuses(--texture velvet "'velvet' is not one of mixed, poor, rich")
 sslam_synth_refuses(--seed -1 "'-1' is not a whole number")
 sslam_synth_refuses(--threads 0 "not in range")
@@ -45,4 +45,4 @@ sslam_cli_test(NAME "synth into a file" ARGS synth ${folder}/file --frames 2 COD
 sslam_cli_test(NAME "synth over another data set" ARGS synth ${folder}/foreign --frames 2 CODE 1
                ERR "^sslam: error: .*foreign: holds a data set that sslam synth did not make.*\n$")
 sslam_cli_test(NAME "synth of three oblique rooms" ARGS synth ${folder}/refused --rooms 3 --world oblique CODE 1
-               ERR "^sslam: error: three rooms have Manhattan walls.*\n$")
+               ERR "^sslam: error: several rooms have Manhattan walls.*\n$")

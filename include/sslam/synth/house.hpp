@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws up a furnished room, or three rooms along a corridor, and a path through it: everything from one
-// seed.
+// Draws up a furnished room, three rooms along a corridor, or a floor of many, and a path through it:
+// everything from one seed.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "sslam/core/random.hpp"
+#include "sslam/synth/building.hpp"
 #include "sslam/synth/decor.hpp"
+#include "sslam/synth/floor_plan.hpp"
 #include "sslam/synth/house_options.hpp"
 #include "sslam/synth/lighting.hpp"
 #include "sslam/synth/path.hpp"
@@ -18,11 +20,6 @@
 #include "sslam/synth/scene.hpp"
 
 namespace sslam::synth {
-
-struct House {
-  Scene scene;
-  ClosedPath path;
-};
 
 class HouseBuilder {
  public:
@@ -45,7 +42,7 @@ class HouseBuilder {
     }
     const bool turned = options_.world == World::kTurned || options_.world == World::kFree;
     FurniturePlacer(scene_, decor_, std::move(walked), turned).furnish(walls_);
-    bake_lighting(scene_, options_.lighting, for_each);
+    if (options_.lit) bake_lighting(scene_, options_.lighting, for_each);
     return {std::move(scene_), std::move(path)};
   }
 
@@ -106,7 +103,7 @@ class HouseBuilder {
       const double along = length - door[i];  // the corridor's wall 2 runs against x
       corridor[2].openings.insert(corridor[2].openings.begin(), {Opening::kPassage, along - kHalfDoor,
                                                                  along + kHalfDoor, 0.0, 2.1, kWallDepth});
-      for (const Vec2<double>& p : visit(door[i], deep, near, 0.5 * (left[i] + right[i]), far))
+      for (const Vec2<double>& p : room_visit(door[i], deep, near, 0.5 * (left[i] + right[i]), far))
         there.push_back(p);
     }
     corridor[0].openings.push_back({Opening::kDoor, 0.5 * length, 0.5 * length + 0.9, 0.0, 2.05, 0.1});
@@ -118,16 +115,7 @@ class HouseBuilder {
     route_ = tour_route(there, random_);
   }
 
-  // From the corridor through the door, once around the room, and out again.
-  static Outline visit(double door, double deep, double near, double middle, double far) {
-    const double centre = 0.5 * (near + far) + 0.1, r = 0.75;
-    return {{door - 0.5, 0.55 * deep},  {door, deep - 0.4},       {door, near + 0.5},
-            {middle + r, centre - 0.3}, {middle + r, centre + r}, {middle - r, centre + r},
-            {middle - r, centre - 0.3}, {door, near + 0.5},       {door, deep - 0.4},
-            {door + 0.5, 0.55 * deep}};
-  }
-
-  static constexpr double kWallDepth = 0.12;  // metres
+  static constexpr double kWallDepth = FloorPlan::kWall;
 
   HouseOptions options_;
   Random random_;
@@ -140,6 +128,7 @@ class HouseBuilder {
 // The same options give the same house, bit by bit; for_each as in bake_lighting.
 template <class ForEach = InOrder>
 [[nodiscard]] House build_house(const HouseOptions& options, const ForEach& for_each = {}) {
+  if (options.rooms != 1 && options.rooms != 3) return BuildingBuilder(options).build(for_each);
   return HouseBuilder(options).build(for_each);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a synthetic house is drawn from.
+// What a synthetic house is drawn from, and what it is.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include "sslam/synth/decor.hpp"
 #include "sslam/synth/light_baker.hpp"
 #include "sslam/synth/path.hpp"
+#include "sslam/synth/scene.hpp"
 
 namespace sslam::synth {
 
@@ -19,15 +20,23 @@ enum class World : std::uint8_t {
 
 enum class PathKind : std::uint8_t { kLoop, kSweep, kPivot };
 
+inline constexpr int kMostRooms = 50;
+
 struct HouseOptions {
   std::uint64_t seed = 1;
   Richness richness = Richness::kRich;
   World world = World::kManhattan;
-  PathKind path = PathKind::kLoop;  // of a single room; three rooms have a tour
-  int rooms = 1;                    // 1 or 3
+  PathKind path = PathKind::kLoop;  // of a single room; several have a tour
+  int rooms = 1;                    // up to kMostRooms; the worlds of several are kManhattan and kTurned
   float texel = 0.003f;             // metres per texel on walls
   PathOptions motion = {};
   LightingOptions lighting = {};
+  bool lit = true;  // false: for who does not render, faces have no light
+};
+
+struct House {
+  Scene scene;
+  ClosedPath path;
 };
 
 }  // namespace sslam::synth

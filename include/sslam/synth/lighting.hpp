@@ -19,22 +19,38 @@ namespace sslam::synth {
   return value <= kStart ? value : kStart + kRoom * (1.0 - std::exp((kStart - value) / kRoom));
 }
 
-// Turns irradiance into factors on display values (gamma 2.2), with the exposure that shows white paint at
-// options.mean_display on average over the area of all faces.
-inline void expose_light_maps(Scene& scene, const LightingOptions& options) {
+// Irradiance over faces, summed over their area.
+struct Brightness {
   double sum = 0.0, area = 0.0;
-  for (const Face& face : scene.faces) {
-    double mean = 0.0;
-    for (const float node : face.light.nodes) mean += node / static_cast<double>(face.light.nodes.size());
-    sum += face.width * face.height * mean;
-    area += face.width * face.height;
+
+  Brightness& operator+=(const Brightness& other) noexcept {
+    sum += other.sum;
+    area += other.area;
+    return *this;
   }
-  const double gain = sum > 0.0 ? std::pow(options.mean_display, 2.2) * area / sum : 1.0;
-  for (Face& face : scene.faces) {
-    for (float& node : face.light.nodes) {
-      node = static_cast<float>(shoulder(std::pow(gain * node, 1.0 / 2.2)));
-    }
-  }
+};
+
+[[nodiscard]] inline Brightness brightness(const Face& face) noexcept {
+  double mean = 0.0;
+  for (const float node : face.light.nodes) mean += node / static_cast<double>(face.light.nodes.size());
+  return {face.width * face.height * mean, face.width * face.height};
+}
+
+// The exposure that shows white paint at options.mean_display on average.
+[[nodiscard]] inline double exposure_gain(const Brightness& all, const LightingOptions& options) noexcept {
+  return all.sum > 0.0 ? std::pow(options.mean_display, 2.2) * all.area / all.sum : 1.0;
+}
+
+// Turns irradiance into factors on display values (gamma 2.2).
+inline void expose_light_map(LightMap& map, double gain) {
+  for (float& node : map.nodes) node = static_cast<float>(shoulder(std::pow(gain * node, 1.0 / 2.2)));
+}
+
+inline void expose_light_maps(Scene& scene, const LightingOptions& options) {
+  Brightness all;
+  for (const Face& face : scene.faces) all += brightness(face);
+  const double gain = exposure_gain(all, options);
+  for (Face& face : scene.faces) expose_light_map(face.light, gain);
 }
 
 // Calls work(i) for i in [0, count) one after the other; a caller with threads brings its own.

@@ -20,7 +20,7 @@ namespace sslam::synth {
 
 class Renderer {
  public:
-  // The scene must outlive the renderer; its faces must have light maps (bake_lighting).
+  // The scene must outlive the renderer; its faces must have light maps (bake_lighting, light_late).
   explicit Renderer(const Scene& scene) : scene_(scene) {
     for (int i = 0; i < kSamples; ++i) {
       int reversed = 0;
@@ -65,8 +65,9 @@ class Renderer {
  private:
   // The three forms of a FaceView in single precision.
   struct Shading {
-    explicit Shading(const FaceView& view)
-        : w(view.inverse.cast<float>()),
+    Shading(const FaceView& view, const LightMap& light_map)
+        : light(&light_map),
+          w(view.inverse.cast<float>()),
           s(view.s_form.cast<float>()),
           t(view.t_form.cast<float>()),
           width(static_cast<float>(view.width)),
@@ -75,6 +76,7 @@ class Renderer {
     [[nodiscard]] float inverse_depth(const Vec2<float>& at) const noexcept {
       return w.x() * at.x() + w.y() * at.y() + w.z();
     }
+    const LightMap* light;
     Vec3<float> w, s, t;
     float width, height;
     int face;
@@ -96,7 +98,8 @@ class Renderer {
   void find(const View& view, RenderedFrame& frame) {
     visibility_.find(scene_, view, frame);
     shading_.clear();
-    for (const FaceView& face : visibility_.faces()) shading_.push_back(Shading(face));
+    for (const FaceView& face : visibility_.faces())
+      shading_.emplace_back(face, scene_.light(static_cast<std::size_t>(face.face)));
   }
 
   // The pixels around a point; one where it is the centre of a pixel.
@@ -150,7 +153,7 @@ class Renderer {
         colour[c] = texture.channels() == 3 ? value[c] : colour[c] + paint.swing[c] * (value[0] - 0.5f);
       }
     }
-    const float light = paint.glows ? 1.0f : light_at(face.light, s, t, k.width, k.height);
+    const float light = paint.glows ? 1.0f : light_at(*k.light, s, t, k.width, k.height);
     for (int c = 0; c < 3; ++c) out[c] = colour[c] * light;
   }
 

@@ -2,7 +2,11 @@
 // A world of flat rectangles: where they lie, how they are painted, what lights them. Metres, z up.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -52,14 +56,41 @@ struct Lamp {
   double power;  // irradiance at 1 m in front of it, relative
 };
 
+// An open doorway as a cell sees it: a rectangle, and the cell behind it.
+struct Doorway {
+  std::array<Vec3<double>, 4> corners;
+  std::int32_t into;
+};
+
+// A room or a corridor, upright walls along x and y. What stands in it is seen from outside through its
+// doorways alone.
+struct Cell {
+  Vec2<double> low, high;  // between its walls
+  double sill = 0.0;       // how far the doorways that belong to it reach beyond, metres
+  std::vector<std::int32_t> faces = {};
+  std::vector<Lamp> lamps = {};
+  std::vector<Doorway> doorways = {};
+
+  [[nodiscard]] bool holds(const Vec3<double>& p, double beyond) const noexcept {
+    return p.x() >= low.x() - beyond && p.x() <= high.x() + beyond && p.y() >= low.y() - beyond &&
+           p.y() <= high.y() + beyond;
+  }
+};
+
 struct Scene {
   std::vector<Face> faces;
   std::vector<Texture> textures;
   std::vector<Lamp> lamps;
+  std::vector<Cell> cells = {};  // of a large house; none: any face may be seen from anywhere
+  // The light of a face that is not baked beforehand; from any thread.
+  std::function<const LightMap&(std::size_t face)> late_light = {};
 
   int add(Texture texture) {
     textures.push_back(std::move(texture));
     return static_cast<int>(textures.size()) - 1;
+  }
+  [[nodiscard]] const LightMap& light(std::size_t face) const {
+    return late_light ? late_light(face) : faces[face].light;
   }
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sslam/synth/cells_in_view.hpp"
 #include "sslam/synth/face_view.hpp"
 #include "sslam/synth/rendered_frame.hpp"
 
@@ -27,13 +28,13 @@ class Visibility {
   void find(const Scene& scene, const View& view, RenderedFrame& frame) {
     frame.resize(view.width, view.height);
     faces_.clear();
-    for (std::size_t i = 0; i < scene.faces.size(); ++i) {
-      FaceView face;
-      if (!view_face(scene.faces[i], static_cast<int>(i), view, face)) continue;
-      draw(face, static_cast<std::int32_t>(faces_.size()), frame);
-      faces_.push_back(face);
-      frame.normals.push_back(face.normal.cast<float>());
-      frame.face.push_back(face.face);
+    if (scene.cells.empty()) {
+      for (std::size_t i = 0; i < scene.faces.size(); ++i) take(scene, static_cast<int>(i), view, frame);
+    } else {
+      for (const std::int32_t cell : cells_.find(scene, view)) {
+        for (const std::int32_t i : scene.cells[static_cast<std::size_t>(cell)].faces)
+          take(scene, i, view, frame);
+      }
     }
     chain_.assign(frame.surface.size(), kInterior);
     links_.clear();
@@ -41,6 +42,7 @@ class Visibility {
     for (std::size_t i = 0; i < faces_.size(); ++i) outline(scene, view, static_cast<std::int32_t>(i), frame);
   }
 
+  // That are turned to the camera, within the image and in a room that is in view: what a frame costs.
   [[nodiscard]] const std::vector<FaceView>& faces() const noexcept { return faces_; }
   // True where one of the pixels may show more than one face.
   [[nodiscard]] bool mixed(const RenderedFrame& frame, const PixelBlock& block) const noexcept {
@@ -79,6 +81,15 @@ class Visibility {
     std::int32_t face, next;
   };
   static constexpr std::int32_t kInterior = -2, kEnd = -1;
+
+  void take(const Scene& scene, int index, const View& view, RenderedFrame& frame) {
+    FaceView face;
+    if (!view_face(scene.faces[static_cast<std::size_t>(index)], index, view, face)) return;
+    draw(face, static_cast<std::int32_t>(faces_.size()), frame);
+    faces_.push_back(face);
+    frame.normals.push_back(face.normal.cast<float>());
+    frame.face.push_back(face.face);
+  }
 
   static void draw(const FaceView& face, std::int32_t id, RenderedFrame& frame) {
     for (int y = face.first_row; y <= face.last_row; ++y) {
@@ -172,6 +183,7 @@ class Visibility {
     }
   }
 
+  CellsInView cells_;
   std::vector<FaceView> faces_;
   std::vector<std::int32_t> chain_;  // per pixel: first link, kEnd, or kInterior
   std::vector<Link> links_;
