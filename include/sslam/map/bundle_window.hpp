@@ -89,7 +89,7 @@ class BundleWindow {
  private:
   void build(const Map<S>& map, const BundleWindowOptions<S>& options) {
     free_count = keyframes.size();
-    view_of_.assign(map.keyframes.size(), kNone);
+    view_of_.resize(map.keyframes.size(), kNone);
     for (std::size_t v = 0; v < free_count; ++v)
       view_of_[map.index(keyframes[v])] = static_cast<std::int32_t>(v);
     collect(map, map.points, &Keyframe<S>::point_landmarks, points);
@@ -100,6 +100,7 @@ class BundleWindow {
       add_view(map.keyframes[map.index(keyframes[v])], v, options);
     add_points(map);
     add_lines(map, options);
+    for (const KeyframeId k : keyframes) view_of_[map.index(k)] = kNone;
     if (options.planes) ties.add(map, points, lines, options.manhattan, graph);
     fix_gauge();
   }
@@ -107,27 +108,29 @@ class BundleWindow {
   // Landmarks seen by free keyframes, in the order of their ids.
   template <class Landmarks, class Seen>
   void collect(const Map<S>& map, const Landmarks& landmarks, Seen seen, std::vector<LandmarkId>& out) {
-    marks_.assign(landmarks.size(), 0);
-    for (const KeyframeId k : keyframes)
-      for (const LandmarkId id : map.keyframes[map.index(k)].*seen)
-        if (id != kNone && landmarks[map.index(id)].alive) marks_[map.index(id)] = 1;
+    marks_.resize(std::max(marks_.size(), landmarks.size()), 0);
     out.clear();
-    for (std::size_t i = 0; i < marks_.size(); ++i)
-      if (marks_[i] != 0) out.push_back(static_cast<LandmarkId>(i));
+    for (const KeyframeId k : keyframes)
+      for (const LandmarkId id : map.keyframes[map.index(k)].*seen) {
+        if (id == kNone || !landmarks[map.index(id)].alive || marks_[map.index(id)] != 0) continue;
+        marks_[map.index(id)] = 1;
+        out.push_back(id);
+      }
+    for (const LandmarkId id : out) marks_[map.index(id)] = 0;
+    std::sort(out.begin(), out.end());
   }
 
   // Appends the keyframes that share most with the window; ties go to the newer one.
   void hold_others(const Map<S>& map, std::size_t max_held) {
-    votes_.assign(map.keyframes.size(), 0);
+    votes_.resize(map.keyframes.size(), 0);
+    others_.clear();
     for (const LandmarkId id : points) vote(map.points[map.index(id)].observations);
     for (const LandmarkId id : lines) vote(map.lines[map.index(id)].observations);
-    others_.clear();
-    for (std::size_t k = 0; k < votes_.size(); ++k)
-      if (votes_[k] > 0) others_.push_back(static_cast<KeyframeId>(k));
     std::sort(others_.begin(), others_.end(), [&](KeyframeId a, KeyframeId b) {
       const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
       return va != vb ? va > vb : a > b;
     });
+    for (const KeyframeId k : others_) votes_[map.index(k)] = 0;
     if (others_.size() > max_held) others_.resize(max_held);
     for (const KeyframeId k : others_) {
       view_of_[map.index(k)] = static_cast<std::int32_t>(keyframes.size());
@@ -137,7 +140,8 @@ class BundleWindow {
 
   void vote(const std::vector<Observation>& observations) {
     for (const Observation& o : observations)
-      if (view_of_[Map<S>::index(o.keyframe)] == kNone) ++votes_[Map<S>::index(o.keyframe)];
+      if (view_of_[Map<S>::index(o.keyframe)] == kNone && votes_[Map<S>::index(o.keyframe)]++ == 0)
+        others_.push_back(o.keyframe);
   }
 
   void add_view(const Keyframe<S>& kf, std::size_t view, const BundleWindowOptions<S>& options) {
@@ -208,6 +212,7 @@ class BundleWindow {
 
   [[nodiscard]] static std::int32_t to_int(std::size_t i) noexcept { return static_cast<std::int32_t>(i); }
 
+  // Between two windows these say nothing: only what a window touched is put back.
   std::vector<std::int32_t> view_of_;  // by keyframe: its view, or kNone
   std::vector<std::int32_t> votes_;    // by keyframe: observations of the window's landmarks
   std::vector<std::uint8_t> marks_;    // by landmark

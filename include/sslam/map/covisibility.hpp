@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sslam/map/keyframe.hpp"
@@ -24,33 +25,41 @@ inline void set_neighbour(std::vector<Neighbour>& neighbours, Neighbour neighbou
   sort_by_shared(neighbours);
 }
 
-// Counts anew what one keyframe shares with all others.
+// Counts anew what one keyframe shares with all others. What that costs grows with what it sees, not with the
+// map.
 class Covisibility {
  public:
-  void begin(std::size_t keyframe_count) { shared_.assign(keyframe_count, 0); }
+  void begin(std::size_t keyframe_count) { shared_.resize(keyframe_count, 0); }
 
   template <class Landmarks>
   void count(const std::vector<LandmarkId>& seen, const Landmarks& landmarks) {
     for (const LandmarkId id : seen)
       if (id != kNone)
         for (const Observation& o : landmarks[static_cast<std::size_t>(id)].observations)
-          ++shared_[static_cast<std::size_t>(o.keyframe)];
+          if (shared_[static_cast<std::size_t>(o.keyframe)]++ == 0) others_.push_back(o.keyframe);
   }
 
+  // Those that were neighbours, on both sides, may be so no longer.
   template <Scalar S>
   void enter(KeyframeId id, std::vector<Keyframe<S>>& keyframes) {
     Keyframe<S>& kf = keyframes[static_cast<std::size_t>(id)];
-    shared_[static_cast<std::size_t>(id)] = 0;
+    for (const Neighbour& n : kf.neighbours)
+      if (shared_[static_cast<std::size_t>(n.keyframe)] == 0) others_.push_back(n.keyframe);
+    std::sort(others_.begin(), others_.end());
     kf.neighbours.clear();
-    for (std::size_t other = 0; other < shared_.size(); ++other) {
-      set_neighbour(keyframes[other].neighbours, {id, shared_[other]});
-      if (shared_[other] > 0) kf.neighbours.push_back({static_cast<KeyframeId>(other), shared_[other]});
+    for (const KeyframeId other : others_) {
+      const std::int32_t shared = std::exchange(shared_[static_cast<std::size_t>(other)], 0);
+      if (other == id) continue;
+      set_neighbour(keyframes[static_cast<std::size_t>(other)].neighbours, {id, shared});
+      if (shared > 0) kf.neighbours.push_back({other, shared});
     }
+    others_.clear();
     sort_by_shared(kf.neighbours);
   }
 
  private:
-  std::vector<std::int32_t> shared_;  // by keyframe
+  std::vector<std::int32_t> shared_;  // by keyframe; all 0 between two counts
+  std::vector<KeyframeId> others_;    // in question
 };
 
 }  // namespace sslam

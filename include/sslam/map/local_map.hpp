@@ -11,8 +11,8 @@
 
 namespace sslam {
 
-// Keeps its buffers, and its marks by generation, so that a frame costs no allocation once the map stops
-// growing.
+// Keeps its buffers, and its marks by generation: a frame costs no allocation once the map stops growing, and
+// what it costs depends on what is around it, not on the map.
 template <Scalar S>
 class LocalMap {
  public:
@@ -24,17 +24,16 @@ class LocalMap {
   // neighbours.
   void gather(const Map<S>& map, std::span<const LandmarkId> seen_points,
               std::span<const LandmarkId> seen_lines, std::size_t max_keyframes) {
-    votes_.assign(map.keyframes.size(), 0);
+    votes_.resize(map.keyframes.size(), 0);
+    keyframes.clear();
     count(map, map.points, seen_points);
     count(map, map.lines, seen_lines);
-    keyframes.clear();
-    for (std::size_t k = 0; k < votes_.size(); ++k)
-      if (votes_[k] > 0) keyframes.push_back(static_cast<KeyframeId>(k));
     // Ties go to the newer keyframe.
     std::sort(keyframes.begin(), keyframes.end(), [&](KeyframeId a, KeyframeId b) {
       const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
       return va != vb ? va > vb : a > b;
     });
+    for (const KeyframeId k : keyframes) votes_[map.index(k)] = 0;
     if (keyframes.size() > max_keyframes) keyframes.resize(max_keyframes);
     add_neighbours(map, max_keyframes);
     collect(map);
@@ -55,7 +54,8 @@ class LocalMap {
   void count(const Map<S>& map, const Landmarks& landmarks, std::span<const LandmarkId> seen) {
     for (const LandmarkId id : seen)
       if (id != kNone)
-        for (const Observation& o : landmarks[map.index(id)].observations) ++votes_[map.index(o.keyframe)];
+        for (const Observation& o : landmarks[map.index(id)].observations)
+          if (votes_[map.index(o.keyframe)]++ == 0) keyframes.push_back(o.keyframe);
   }
 
   void add_neighbours(const Map<S>& map, std::size_t max_keyframes) {
@@ -89,7 +89,7 @@ class LocalMap {
     }
   }
 
-  std::vector<std::int32_t> votes_;
+  std::vector<std::int32_t> votes_;  // by keyframe; all 0 between two calls
   std::vector<std::uint32_t> point_marks_;
   std::vector<std::uint32_t> line_marks_;
   std::uint32_t generation_ = 0;

@@ -12,6 +12,7 @@
 #include "sslam/map/free_ids.hpp"
 #include "sslam/map/id_shift.hpp"
 #include "sslam/map/keyframe.hpp"
+#include "sslam/map/look_index.hpp"
 #include "sslam/map/manhattan_axes.hpp"
 
 namespace sslam {
@@ -45,8 +46,7 @@ class Map {
     for (std::size_t i = 0; i < kf.point_landmarks.size(); ++i)
       if (kf.point_landmarks[i] != kNone) renew_point(kf.point_landmarks[i], kf, i);
     for (std::size_t i = 0; i < kf.line_landmarks.size(); ++i)
-      if (kf.line_landmarks[i] != kNone)
-        lines[index(kf.line_landmarks[i])].descriptor = kf.frame.lines[i].descriptor;
+      if (kf.line_landmarks[i] != kNone) look_like(kf.line_landmarks[i], kf.frame.lines[i].descriptor);
     update_covisibility(id);
     return id;
   }
@@ -86,13 +86,19 @@ class Map {
     kf.line_landmarks.values_[feature] = id;
     LineLandmark<S>& line = lines[index(id)];
     line.observations.values_.push_back({keyframe, static_cast<std::int32_t>(feature)});
-    line.descriptor = kf.frame.lines[feature].descriptor;
+    look_like(id, kf.frame.lines[feature].descriptor);
     if (line.axis == kNone) line.axis = kf.line_axes.empty() ? std::int8_t{kNone} : kf.line_axes[feature];
   }
 
   // The id is given to a later landmark: whoever keeps ids beyond the next add_ must be ready for that.
-  void erase_point(LandmarkId id) { erase(points, free_points_, id, &Keyframe<S>::point_landmarks); }
-  void erase_line(LandmarkId id) { erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks); }
+  void erase_point(LandmarkId id) {
+    erase(points, free_points_, id, &Keyframe<S>::point_landmarks);
+    point_looks_.remove(id);
+  }
+  void erase_line(LandmarkId id) {
+    erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks);
+    line_looks_.remove(id);
+  }
 
   // Its members lie on none afterwards.
   void erase_plane(LandmarkId id) {
@@ -126,6 +132,8 @@ class Map {
 
   // Finds the ids that can be given away in landmarks that were filled in from outside.
   void collect_free_ids() {
+    point_looks_.forget();
+    line_looks_.forget();
     free_points_.collect(points);
     free_lines_.collect(lines);
     free_planes_.collect(planes);
@@ -192,11 +200,26 @@ class Map {
     covisibility_.enter(id, keyframes);
   }
 
+  // Which landmarks may look like a descriptor.
+  [[nodiscard]] const LookIndex& point_looks() const { return made(point_looks_, points); }
+  [[nodiscard]] const LookIndex& line_looks() const { return made(line_looks_, lines); }
+
   [[nodiscard]] static constexpr std::size_t index(std::int32_t id) noexcept {
     return static_cast<std::size_t>(id);
   }
 
  private:
+  template <class Landmarks>
+  [[nodiscard]] static const LookIndex& made(LookIndex& looks, const Landmarks& landmarks) {
+    if (!looks.made()) looks.make(landmarks);
+    return looks;
+  }
+
+  void look_like(LandmarkId line, const Descriptor& descriptor) {
+    lines[index(line)].descriptor = descriptor;
+    line_looks_.set(line, descriptor);
+  }
+
   static void move_ids(LandmarkCommon& landmark, const IdShift& shift) {
     for (Observation& o : landmark.observations.values_) o.keyframe += shift.keyframes;
     IdShift::apply(landmark.first_keyframe, shift.keyframes);
@@ -220,6 +243,7 @@ class Map {
     const Vec3<S> to_camera = kf.cam_from_world.inverse().translation - point.position;
     const S distance = to_camera.norm();
     point.descriptor = kf.frame.points[feature].descriptor;
+    point_looks_.set(id, point.descriptor);
     point.extent = kf.frame.points[feature].sigma * distance;
     const auto n = static_cast<S>(point.observations.size());
     const Vec3<S> mean = point.viewing_direction * (n - 1) + to_camera / std::max(distance, S(1e-9));
@@ -268,6 +292,7 @@ class Map {
   }
 
   FreeIds free_points_, free_lines_, free_planes_;
+  mutable LookIndex point_looks_, line_looks_;  // made when they are first asked
   Covisibility covisibility_;
 };
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
-#include "sslam/track/matching/descriptor_buckets.hpp"
 #include "sslam/track/matching/match_points.hpp"
 
 namespace sslam {
@@ -45,51 +44,62 @@ class PlaceRecognition {
             std::span<const KeyframeId> apart_from = {});
 
  private:
+  // A landmark votes for the keyframes that see it.
   template <class Landmarks, class Seen, class Features>
-  void vote(const Map<S>& map, const Landmarks& landmarks, Seen seen, const Features& features,
-            std::span<const KeyframeId> apart_from) {
-    excluded_.assign(landmarks.size(), 0);
+  void vote(const Map<S>& map, const Landmarks& landmarks, const LookIndex& looks, Seen seen,
+            const Features& features, std::span<const KeyframeId> apart_from) {
+    if (candidates_.size() < landmarks.size()) candidates_.resize(landmarks.size());
     for (const KeyframeId k : apart_from)
       for (const LandmarkId id : map.keyframes[map.index(k)].*seen)
-        if (id != kNone) excluded_[map.index(id)] = 1;
-    buckets_.build(features);
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      if (!landmarks[i].alive || excluded_[i] != 0 || !looks_like_one(landmarks[i].descriptor, features))
-        continue;
-      for (const Observation& o : landmarks[i].observations) ++votes_[map.index(o.keyframe)];
+        if (id != kNone) touch(id).excluded = true;
+    for (std::size_t f = 0; f < features.size(); ++f)
+      looks.near(features[f].descriptor, [&](LandmarkId id, int distance) {
+        Candidate& candidate = touch(id);
+        if (!candidate.excluded) candidate.features.offer(distance, static_cast<std::int32_t>(f));
+      });
+    for (const LandmarkId id : touched_) {
+      Candidate& candidate = candidates_[map.index(id)];
+      if (!candidate.excluded && candidate.features.accepted(options.max_distance, options.max_ratio))
+        for (const Observation& o : landmarks[map.index(id)].observations)
+          if (votes_[map.index(o.keyframe)]++ == 0) order_.push_back(o.keyframe);
+      candidate = {};
     }
+    touched_.clear();
   }
 
-  // Among those that the buckets name, which leave out few that are close.
-  template <class Features>
-  [[nodiscard]] bool looks_like_one(const Descriptor& descriptor, const Features& features) const {
-    BestTwo two;
-    buckets_.near(descriptor, [&](std::int32_t f) {
-      two.offer(hamming(descriptor, features[Map<S>::index(f)].descriptor), f);
-    });
-    return two.accepted(options.max_distance, options.max_ratio);
+  struct Candidate {
+    BestTwo features;  // that look most like the landmark
+    bool touched = false, excluded = false;
+  };
+  Candidate& touch(LandmarkId id) {
+    Candidate& candidate = candidates_[Map<S>::index(id)];
+    if (!candidate.touched) touched_.push_back(id);
+    candidate.touched = true;
+    return candidate;
   }
 
-  DescriptorBuckets buckets_;
-  std::vector<std::uint8_t> excluded_;  // by landmark
-  std::vector<int> votes_;              // of each keyframe
+  std::vector<Candidate> candidates_;  // by landmark; untouched between two votes
+  std::vector<LandmarkId> touched_;
+  std::vector<int> votes_;  // of each keyframe; all 0 between two questions
   std::vector<KeyframeId> order_;
 };
 
 template <Scalar S>
 void PlaceRecognition<S>::rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked,
                                std::span<const KeyframeId> apart_from) {
-  votes_.assign(map.keyframes.size(), 0);
-  vote(map, map.points, &Keyframe<S>::point_landmarks, frame.points, apart_from);
-  vote(map, map.lines, &Keyframe<S>::line_landmarks, frame.lines, apart_from);
+  votes_.resize(map.keyframes.size(), 0);
   order_.clear();
-  for (std::size_t k = 0; k < votes_.size(); ++k)
-    if (votes_[k] >= options.min_votes) order_.push_back(static_cast<KeyframeId>(k));
+  vote(map, map.points, map.point_looks(), &Keyframe<S>::point_landmarks, frame.points, apart_from);
+  vote(map, map.lines, map.line_looks(), &Keyframe<S>::line_landmarks, frame.lines, apart_from);
   std::sort(order_.begin(), order_.end(), [&](KeyframeId a, KeyframeId b) {
     const int va = votes_[map.index(a)], vb = votes_[map.index(b)];
     return va != vb ? va > vb : a < b;
   });
-  const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max(options.most, 0)));
+  std::size_t count = 0;
+  while (count < order_.size() && count < static_cast<std::size_t>(std::max(options.most, 0)) &&
+         votes_[map.index(order_[count])] >= options.min_votes)
+    ++count;
+  for (const KeyframeId k : order_) votes_[map.index(k)] = 0;
   ranked.insert(ranked.end(), order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
