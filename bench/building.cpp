@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a building costs: a house of many rooms is walked through as features alone, and the run is told in
 // tenths of its frames, so that what grows with the map stands out.
-//   building [--rooms N] [--frames N] [--texture rich|mixed|poor] [--seed N] [--fps N] [--live] [--adjust]
+//   building [--rooms N] [--frames N] [--texture rich|mixed|poor] [--seed N] [--fps N] [--pitch METRES]
+//   [--live] [--adjust]
 //            [--map FILE]
 // Times are processor time of the thread at work, in milliseconds; docs/benchmarks.md says how to read them.
 #include <ctime>
@@ -94,8 +95,8 @@ using Live =
 
 struct Arguments {
   synth::HouseOptions house;
-  int frames = 2000;
-  double fps = 30;
+  int frames = 0;  // 0: a lap and a twentieth
+  double fps = 30, pitch = testing::FeatureCameraOptions{}.pitch;
   bool live = false, adjust = false;
   std::string map;
 };
@@ -177,10 +178,13 @@ template <class P>
 int walk(const Arguments& arguments) {
   const double building = seconds_of_process();
   const synth::House house = synth::build_house(arguments.house);
-  testing::FeatureCamera camera(house.scene, {});
-  std::printf("%d rooms, %.1f m a lap, %zu faces, built in %.1f s, %.0f MB\n", arguments.house.rooms,
-              house.path.lap_seconds() * arguments.house.motion.speed, house.scene.faces.size(),
-              seconds_of_process() - building, memory("VmRSS"));
+  testing::FeatureCameraOptions eyes;
+  eyes.pitch = arguments.pitch;
+  testing::FeatureCamera camera(house.scene, eyes);
+  const double lap = house.path.lap_seconds() * arguments.fps;
+  const int frames = arguments.frames > 0 ? arguments.frames : static_cast<int>(1.05 * lap);
+  std::printf("%d rooms, %.0f frames a lap, %zu faces, built in %.1f s, %.0f MB\n", arguments.house.rooms,
+              lap, house.scene.faces.size(), seconds_of_process() - building, memory("VmRSS"));
   std::puts(
       "| tenth | keyframes | landmarks | planes | frame: median, p95 | new keyframes | mapping | adjustment "
       "| planes | "
@@ -192,7 +196,7 @@ int walk(const Arguments& arguments) {
   std::size_t first_keyframe = 0, points = 0, lines = 0;
   int joins = 0, loops = 0, lost = 0;
   double seeing = 0, tracking = 0;
-  for (int i = 0; i < arguments.frames; ++i) {
+  for (int i = 0; i < frames; ++i) {
     const double stamp = i / arguments.fps, start = seconds_of_thread();
     truth.push_back({stamp, house.path.world_from_cam(stamp)});
     camera.take(truth.back().world_from_cam.inverse(), i, stamp, frame);
@@ -207,22 +211,21 @@ int walk(const Arguments& arguments) {
     joins += result.maps_joined;
     loops += result.loop_closed;
     lost += result.state == State::kLost;
-    if (std::int64_t{kParts} * (i + 1) / arguments.frames == std::int64_t{kParts} * i / arguments.frames)
-      continue;
-    print_part(kParts * i / arguments.frames, costs, first_keyframe, counts_of(*pipeline));
+    if (std::int64_t{kParts} * (i + 1) / frames == std::int64_t{kParts} * i / frames) continue;
+    print_part(kParts * i / frames, costs, first_keyframe, counts_of(*pipeline));
     costs.clear();
     first_keyframe = keyframe_costs.size();
   }
   loops += pipeline->finish();
   std::printf("a frame: %.0f points, %.0f lines, %.2f ms for its features, %.2f ms in the pipeline\n",
-              static_cast<double>(points) / arguments.frames, static_cast<double>(lines) / arguments.frames,
-              1e3 * seeing / arguments.frames, 1e3 * tracking / arguments.frames);
+              static_cast<double>(points) / frames, static_cast<double>(lines) / frames,
+              1e3 * seeing / frames, 1e3 * tracking / frames);
   std::printf(
       "worlds %zu of %d begun, joined %d, loops closed %d, frames lost %d; %.0f s of processor time, %.0f MB "
       "at most\n",
       pipeline->worlds().size(), pipeline->last_number() + 1, joins, loops, lost, seconds_of_process(),
       memory("VmHWM"));
-  print_error(*pipeline, truth, arguments.frames);
+  print_error(*pipeline, truth, frames);
   if (!arguments.map.empty()) {
     io::save_map(arguments.map, pipeline->map());
     std::printf("map file: %.1f MB\n", static_cast<double>(std::filesystem::file_size(arguments.map)) / 1e6);
@@ -261,6 +264,8 @@ int main(int argc, char** argv) {
       arguments.frames = std::max(kParts, std::atoi(value.c_str()));
     else if (option == "--fps")
       arguments.fps = std::max(1.0, std::atof(value.c_str()));
+    else if (option == "--pitch")
+      arguments.pitch = std::clamp(std::atof(value.c_str()), 0.02, 5.0);
     else if (option == "--seed")
       arguments.house.seed = std::strtoull(value.c_str(), nullptr, 10);
     else if (option == "--map")

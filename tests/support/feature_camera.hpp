@@ -21,6 +21,7 @@ namespace sslam::testing {
 struct FeatureCameraOptions {
   int width = 640, height = 480;
   double focal = 480;         // pixels
+  double pitch = 0.12;        // metres from point to point on a textured surface
   std::size_t points = 1200;  // at most, the strongest
   double point_sigma = 0.5;   // pixels at full resolution
   double line_sigma = 0.4;    // of an end across the line, pixels
@@ -33,7 +34,10 @@ class FeatureCamera {
  public:
   // The scene must outlive the camera.
   FeatureCamera(const synth::Scene& scene, const FeatureCameraOptions& options)
-      : scene_(scene), options_(options), marks_(scene, options.seed), drawn_(marks_.edges.size(), -1) {}
+      : scene_(scene),
+        options_(options),
+        marks_(scene, options.pitch, options.seed),
+        drawn_(marks_.edges.size(), -1) {}
 
   [[nodiscard]] const SurfaceMarks& marks() const { return marks_; }
 

@@ -44,7 +44,10 @@ class SurfaceMarks {
   std::vector<SurfacePoint> points;  // face by face
   std::vector<SurfaceEdge> edges;
 
-  SurfaceMarks(const synth::Scene& scene, std::uint64_t seed) : seed_(seed), edges_of_(scene.faces.size()) {
+  // One point in each square of `pitch` metres where a face has a texture; three times as many on what is
+  // printed.
+  SurfaceMarks(const synth::Scene& scene, double pitch, std::uint64_t seed)
+      : pitch_(pitch), seed_(seed), edges_of_(scene.faces.size()) {
     for (std::size_t i = 0; i < scene.faces.size(); ++i) {
       first_point_.push_back(points.size());
       const synth::Face& face = scene.faces[i];
@@ -66,11 +69,11 @@ class SurfaceMarks {
  private:
   static constexpr double kLeastSide = 0.15, kLeastEdge = 0.25;  // metres
 
-  // One point in each square of a lattice that is fixed to the texture: where two faces show the same sheet
+  // The lattice is fixed to the texture: where two faces show the same sheet
   // of wood, they look the same.
   void add_texture(const synth::Scene& scene, const synth::Face& face) {
     const auto texture = static_cast<std::size_t>(face.paint.texture);
-    const double pitch = scene.textures[texture].channels() == 3 ? 0.1 : 0.2;
+    const double pitch = scene.textures[texture].channels() == 3 ? 0.58 * pitch_ : pitch_;
     const Vec2<double> offset = face.paint.offset.cast<double>();
     const auto seed = static_cast<std::uint32_t>(seed_ + 977 * texture);
     for (int i = lattice(offset.x(), pitch); i <= lattice(offset.x() + face.width, pitch); ++i)
@@ -129,6 +132,7 @@ class SurfaceMarks {
     return {std::lround(100 * p.x()), std::lround(100 * p.y()), std::lround(100 * p.z())};
   }
 
+  double pitch_;
   std::uint64_t seed_;
   std::vector<std::size_t> first_point_;  // by face, and the end
   std::vector<std::vector<std::int32_t>> edges_of_;

@@ -114,15 +114,14 @@ class BundleWriteBack {
       const BundlePoint<S>& point = graph.points[i];
       if (point.plane == kNoPlane) continue;
       const Plane3<S>& plane = graph.planes[map.index(point.plane)].plane;
-      if (!gate(point_on_plane(plane, point.position).error[0]))
-        map.points[map.index(window.points[i])].plane = kNone;
+      if (!gate(point_on_plane(plane, point.position).error[0])) map.lay_point(window.points[i], kNone);
     }
     for (std::size_t i = 0; i < graph.lines.size(); ++i) {
       const BundleLine<S>& line = graph.lines[i];
       if (line.plane == kNoPlane) continue;
       const Plane3<S>& plane = graph.planes[map.index(line.plane)].plane;
       if (!gate(line_on_plane(plane, line.line, line.start, line.end).error.cwiseAbs().maxCoeff()))
-        map.lines[map.index(window.lines[i])].plane = kNone;
+        map.lay_line(window.lines[i], kNone);
     }
   }
 

@@ -14,6 +14,7 @@
 #include "sslam/map/keyframe.hpp"
 #include "sslam/map/look_index.hpp"
 #include "sslam/map/manhattan_axes.hpp"
+#include "sslam/map/plane_members.hpp"
 
 namespace sslam {
 
@@ -92,22 +93,34 @@ class Map {
 
   // The id is given to a later landmark: whoever keeps ids beyond the next add_ must be ready for that.
   void erase_point(LandmarkId id) {
+    lay_point(id, kNone);
     erase(points, free_points_, id, &Keyframe<S>::point_landmarks);
     point_looks_.remove(id);
   }
   void erase_line(LandmarkId id) {
+    lay_line(id, kNone);
     erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks);
     line_looks_.remove(id);
   }
 
   // Its members lie on none afterwards.
   void erase_plane(LandmarkId id) {
+    move_members(id, kNone);
     planes[index(id)].alive = false;
-    for (auto& point : points)
-      if (point.plane == id) point.plane = kNone;
-    for (auto& line : lines)
-      if (line.plane == id) line.plane = kNone;
     free_planes_.add(id);
+  }
+
+  // The landmark lies on the plane from now on; kNone: on none.
+  void lay_point(LandmarkId id, LandmarkId plane) { lay(points, &PlaneMembers::Lists::points, id, plane); }
+  void lay_line(LandmarkId id, LandmarkId plane) { lay(lines, &PlaneMembers::Lists::lines, id, plane); }
+  void move_members(LandmarkId from, LandmarkId into) {
+    const PlaneMembers::Lists moved = members(from);
+    for (const LandmarkId id : moved.points) lay_point(id, into);
+    for (const LandmarkId id : moved.lines) lay_line(id, into);
+  }
+  [[nodiscard]] const PlaneMembers::Lists& members(LandmarkId plane) const {
+    if (!members_.made()) members_.make(points, lines);
+    return members_.of(plane);
   }
 
   // Takes over all of another map; its ids follow those of this one.
@@ -134,6 +147,7 @@ class Map {
   void collect_free_ids() {
     point_looks_.forget();
     line_looks_.forget();
+    members_.forget();
     free_points_.collect(points);
     free_lines_.collect(lines);
     free_planes_.collect(planes);
@@ -151,11 +165,13 @@ class Map {
   void fuse_points(LandmarkId from, LandmarkId into) {
     hand_over(points, from, into,
               [&](const Observation& o) { observe_point(into, o.keyframe, index(o.feature)); });
+    if (points[index(into)].plane == kNone) lay_point(into, points[index(from)].plane);
     erase_point(from);
   }
   void fuse_lines(LandmarkId from, LandmarkId into) {
     hand_over(lines, from, into,
               [&](const Observation& o) { observe_line(into, o.keyframe, index(o.feature)); });
+    if (lines[index(into)].plane == kNone) lay_line(into, lines[index(from)].plane);
     erase_line(from);
   }
 
@@ -215,6 +231,13 @@ class Map {
     return looks;
   }
 
+  template <class Landmarks>
+  void lay(Landmarks& landmarks, std::vector<LandmarkId> PlaneMembers::Lists::*kind, LandmarkId id,
+           LandmarkId plane) {
+    members_.move(id, kind, landmarks[index(id)].plane, plane);
+    landmarks[index(id)].plane = plane;
+  }
+
   void look_like(LandmarkId line, const Descriptor& descriptor) {
     lines[index(line)].descriptor = descriptor;
     line_looks_.set(line, descriptor);
@@ -260,7 +283,6 @@ class Map {
     }
     landmark.observations.values_.clear();
     landmark.observations.values_.shrink_to_fit();
-    landmark.plane = kNone;
     landmark.alive = false;
     free.add(id);
   }
@@ -286,13 +308,14 @@ class Map {
                        [&](const Observation& p) { return p.keyframe == o.keyframe; }))
         observe(o);
     }
-    if (landmarks[index(into)].plane == kNone) landmarks[index(into)].plane = landmarks[index(from)].plane;
     landmarks[index(into)].visible += landmarks[index(from)].visible;
     landmarks[index(into)].found += landmarks[index(from)].found;
   }
 
   FreeIds free_points_, free_lines_, free_planes_;
-  mutable LookIndex point_looks_, line_looks_;  // made when they are first asked
+  // Made when they are first asked.
+  mutable LookIndex point_looks_, line_looks_;
+  mutable PlaneMembers members_;
   Covisibility covisibility_;
 };
 

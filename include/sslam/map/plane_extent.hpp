@@ -65,17 +65,21 @@ struct PlaneExtent {
   }
 };
 
-// What of each plane its members cover, by id.
+// What of a plane its members cover.
+template <Scalar S>
+[[nodiscard]] PlaneExtent<S> extent_of(const Map<S>& map, LandmarkId plane) {
+  PlaneExtent<S> extent(map.planes[map.index(plane)].plane.normal);
+  for (const LandmarkId id : map.members(plane).points) extent.add(map.points[map.index(id)]);
+  for (const LandmarkId id : map.members(plane).lines) extent.add(map.lines[map.index(id)]);
+  return extent;
+}
+
+// Of each plane, by id.
 template <Scalar S>
 void gather_extents(const Map<S>& map, std::vector<PlaneExtent<S>>& extents) {
   extents.clear();
-  for (const PlaneLandmark<S>& plane : map.planes) extents.emplace_back(plane.plane.normal);
-  const auto add = [&](const auto& landmarks) {
-    for (const auto& landmark : landmarks)
-      if (landmark.alive && landmark.plane != kNone) extents[map.index(landmark.plane)].add(landmark);
-  };
-  add(map.points);
-  add(map.lines);
+  for (std::size_t p = 0; p < map.planes.size(); ++p)
+    extents.push_back(extent_of(map, static_cast<LandmarkId>(p)));
 }
 
 }  // namespace sslam

@@ -37,8 +37,9 @@ class PlaneTies {
       graph.planes.push_back({plane.plane, std::nullopt, Mat<S, 4, 4>::Zero()});
       if (manhattan && plane.axis != kNone) graph.planes.back().axis = map.axis(plane.axis);
     }
-    hold(map.points, points, graph, [](const PointLandmark<S>& p, auto take) { take(p.position); });
-    hold(map.lines, lines, graph, [](const LineLandmark<S>& l, auto take) {
+    hold(map.points, &PlaneMembers::Lists::points, points, map, graph,
+         [](const PointLandmark<S>& p, auto take) { take(p.position); });
+    hold(map.lines, &PlaneMembers::Lists::lines, lines, map, graph, [](const LineLandmark<S>& l, auto take) {
       take(l.start);
       take(l.end);
     });
@@ -57,21 +58,20 @@ class PlaneTies {
   }
 
   template <class Landmarks, class Places>
-  void hold(const Landmarks& landmarks, std::span<const LandmarkId> moving, BundleGraph<S>& graph,
-            Places places) {
-    moves_.assign(landmarks.size(), 0);
-    for (const LandmarkId id : moving) moves_[Map<S>::index(id)] = 1;
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      const auto& landmark = landmarks[i];
-      if (!landmark.alive || landmark.plane == kNone || moves_[i] != 0) continue;
-      const std::int32_t place = place_of_[Map<S>::index(landmark.plane)];
-      if (place == kNoPlane) continue;
-      places(landmark, [&](const Vec3<S>& x) {
-        Vec4<S> row;
-        row << x, S(-1);
-        graph.planes[static_cast<std::size_t>(place)].held += row * row.transpose();
-      });
-    }
+  void hold(const Landmarks& landmarks, std::vector<LandmarkId> PlaneMembers::Lists::*kind,
+            std::span<const LandmarkId> moving, const Map<S>& map, BundleGraph<S>& graph, Places places) {
+    if (moves_.size() < landmarks.size()) moves_.resize(landmarks.size(), 0);
+    for (const LandmarkId id : moving) moves_[map.index(id)] = 1;
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      for (const LandmarkId id : map.members(planes[p]).*kind) {
+        if (moves_[map.index(id)] != 0) continue;
+        places(landmarks[map.index(id)], [&](const Vec3<S>& x) {
+          Vec4<S> row;
+          row << x, S(-1);
+          graph.planes[p].held += row * row.transpose();
+        });
+      }
+    for (const LandmarkId id : moving) moves_[map.index(id)] = 0;
   }
 
   // Median over the points and lines, each seen from one of its views.
@@ -88,7 +88,7 @@ class PlaneTies {
   }
 
   std::vector<std::int32_t> place_of_;  // by plane: its place in the graph, or kNoPlane
-  std::vector<std::uint8_t> moves_;     // by landmark
+  std::vector<std::uint8_t> moves_;     // by landmark; all 0 between two kinds
   std::vector<S> depths_;
 };
 

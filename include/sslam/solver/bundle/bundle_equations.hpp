@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Normal equations of a bundle adjustment: landmarks are eliminated, views and planes solved for densely.
+// Normal equations of a bundle adjustment: landmarks are eliminated, views and planes solved for.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "sslam/solver/bundle/bundle_graph.hpp"
 #include "sslam/solver/bundle/landmark_elimination.hpp"
+#include "sslam/solver/bundle/reduced_system.hpp"
 
 namespace sslam {
 
@@ -74,28 +75,11 @@ class BundleEquations {
   // cannot be factored.
   [[nodiscard]] bool solve(const BundleGraph<S>& graph, S damping) {
     const Eigen::Index size = plane_rows_ + static_cast<Eigen::Index>(3 * planes_.size());
-    system_.setZero(size, size);
-    right_.resize(size);
-    for (std::size_t v = 0; v < views_.size(); ++v)
-      if (rows_[v] != kHeld) put<6>(views_[v], rows_[v], damping);
-    for (std::size_t p = 0; p < planes_.size(); ++p) put<3>(planes_[p], plane_row(p), damping);
-    for_each(graph.points, [&](auto i, auto first, auto last) {
-      points.eliminate(i, first, last, damping, system_, right_);
-    });
-    for_each(graph.lines, [&](auto i, auto first, auto last) {
-      lines.eliminate(i, first, last, damping, system_, right_);
-    });
-    for (std::size_t v = 0; v < rows_.size(); ++v)
-      if (turning_[v] != 0)
-        for (int a = 3; a < 6; ++a) system_(rows_[v] + a, rows_[v] + a) = 1;  // its gradient there is zero
-    factor_.compute(system_);
-    if (factor_.info() != Eigen::Success) return false;
-    steps_ = -factor_.solve(right_);
-    if (!steps_.allFinite()) return false;
-    for_each(graph.points, [&](auto i, auto first, auto last) { points.substitute(i, first, last, steps_); });
-    for_each(graph.lines, [&](auto i, auto first, auto last) { lines.substitute(i, first, last, steps_); });
-    return true;
+    return size <= kDense ? solve(dense_, size, graph, damping) : solve(sparse_, size, graph, damping);
   }
+
+  // The next graph is another one.
+  void forget() noexcept { sparse_.forget(); }
 
   // Zero for a held view.
   [[nodiscard]] Vec6<S> view_step(std::size_t view) const {
@@ -107,6 +91,32 @@ class BundleEquations {
   }
 
  private:
+  static constexpr Eigen::Index kDense = 1200;  // rows: 200 views
+
+  template <class System>
+  [[nodiscard]] bool solve(System& system, Eigen::Index size, const BundleGraph<S>& graph, S damping) {
+    system.begin(plane_rows_ / 6, static_cast<Eigen::Index>(planes_.size()));
+    right_.resize(size);
+    for (std::size_t v = 0; v < views_.size(); ++v)
+      if (rows_[v] != kHeld) put<6>(system, views_[v], rows_[v], damping);
+    for (std::size_t p = 0; p < planes_.size(); ++p) put<3>(system, planes_[p], plane_row(p), damping);
+    for_each(graph.points, [&](auto i, auto first, auto last) {
+      points.eliminate(i, first, last, damping, system, right_);
+    });
+    for_each(graph.lines, [&](auto i, auto first, auto last) {
+      lines.eliminate(i, first, last, damping, system, right_);
+    });
+    for (std::size_t v = 0; v < rows_.size(); ++v)
+      if (turning_[v] != 0)  // its gradient there is zero
+        for (int a = 3; a < 6; ++a) system.block(rows_[v], rows_[v])[a * (system.stride(rows_[v]) + 1)] = 1;
+    if (!system.solve(right_, steps_)) return false;
+    steps_ = -steps_;
+    if (!steps_.allFinite()) return false;
+    for_each(graph.points, [&](auto i, auto first, auto last) { points.substitute(i, first, last, steps_); });
+    for_each(graph.lines, [&](auto i, auto first, auto last) { lines.substitute(i, first, last, steps_); });
+    return true;
+  }
+
   template <int D, class Derive>
   void add_edge(LandmarkSide<S, D>& side, std::size_t i, std::size_t edge, std::size_t view,
                 const Vec2<S>& error, S weight, Derive derive) {
@@ -132,10 +142,14 @@ class BundleEquations {
     add_product<S, Rows, 3, D>(by_plane, by_landmark, weight, side.planes[i].W);
   }
 
-  template <int D>
-  void put(const BlockEquations<S, D>& block, Eigen::Index at, S damping) {
-    system_.template block<D, D>(at, at) = block.H;
-    for (Eigen::Index a = at; a < at + D; ++a) system_(a, a) += damping * std::max(system_(a, a), S(1e-9));
+  template <int D, class System>
+  void put(System& system, const BlockEquations<S, D>& block, Eigen::Index at, S damping) {
+    S* const to = system.block(at, at);
+    const Eigen::Index stride = system.stride(at);
+    for (Eigen::Index c = 0; c < D; ++c) {
+      for (Eigen::Index r = 0; r < D; ++r) to[c * stride + r] = block.H(r, c);
+      to[c * stride + c] += damping * std::max(block.H(c, c), S(1e-9));
+    }
     right_.template segment<D>(at) = block.g;
   }
 
@@ -150,16 +164,15 @@ class BundleEquations {
         static_cast<std::size_t>(landmarks[i].last_edge));
   }
 
-  using MatX = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using VecX = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   std::vector<BlockEquations<S, 6>> views_;
   std::vector<BlockEquations<S, 3>> planes_;
   std::vector<Eigen::Index> rows_;     // by view: where it begins in the system, or kHeld
   Eigen::Index plane_rows_ = 0;        // where the planes begin
   std::vector<std::uint8_t> turning_;  // by view: 1 where the centre is held
-  MatX system_;                        // lower half
+  DenseSystem<S> dense_;
+  SparseSystem<S> sparse_;
   VecX right_, steps_;
-  Eigen::LLT<MatX> factor_;
 };
 
 }  // namespace sslam

@@ -124,6 +124,7 @@ BundleSummary BundleSolver<S>::solve(BundleGraph<S>& graph) {
   state_.load(graph);
   if (!state_.finite()) return fail(summary, Status::kNotFinite);
   if (choose_edges(graph) == 0) return summary;
+  equations_.forget();
   S cost = linearise(graph);
   summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
   if (!std::isfinite(cost)) return fail(summary, Status::kNotFinite);

@@ -72,8 +72,9 @@ class LandmarkSide {
         const Eigen::Index col = mixed[f].row;
         if (col == kHeld) continue;
         const Mat<S, 6, D>& other = reduced_[f - first];
-        if (row >= col) subtract_outer<S, 6, 6, D>(y, other, &system(row, col), system.rows());
-        if (row <= col && f != e) subtract_outer<S, 6, 6, D>(other, y, &system(col, row), system.rows());
+        if (row >= col) subtract_outer<S, 6, 6, D>(y, other, system.block(row, col), system.stride(row));
+        if (row <= col && f != e)
+          subtract_outer<S, 6, 6, D>(other, y, system.block(col, row), system.stride(col));
       }
     }
     const Eigen::Index row = planes[i].row;  // below those of the views
@@ -83,8 +84,9 @@ class LandmarkSide {
       for (int r = 0; r < 3; ++r) right[row + r] -= y(r, d) * z[d];
     for (std::size_t e = first; e < last; ++e)
       if (mixed[e].row != kHeld)
-        subtract_outer<S, 3, 6, D>(y, reduced_[e - first], &system(row, mixed[e].row), system.rows());
-    subtract_outer<S, 3, 3, D>(y, y, &system(row, row), system.rows());
+        subtract_outer<S, 3, 6, D>(y, reduced_[e - first], system.block(row, mixed[e].row),
+                                   system.stride(row));
+    subtract_outer<S, 3, 3, D>(y, y, system.block(row, row), system.stride(row));
   }
 
   // The landmark's own step once those of views and planes are known: H^-1 (-g - sum W^T d).

@@ -91,7 +91,7 @@ class PlanePoints {
     for (const IndexPair& p : pairs_) {
       const Intersection& hit = *intersections_[map.index(p.first)];
       const LandmarkId landmark = map.add_point(hit.place, id_a);
-      map.points[map.index(landmark)].plane = hit.plane;
+      map.lay_point(landmark, hit.plane);
       map.observe_point(landmark, id_b, map.index(p.second));
       map.observe_point(landmark, id_a, map.index(p.first));
     }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
@@ -99,26 +101,23 @@ class ManhattanPlanes {
 
   // Counts members, lets planes go that have lost theirs, and joins those that coincide.
   void settle(Map<S>& map) {
-    count(map);
-    for (std::size_t p = 0; p < map.planes.size(); ++p)
-      if (map.planes[p].alive && 2 * static_cast<std::size_t>(map.planes[p].support) < options.min_members)
-        map.erase_plane(static_cast<LandmarkId>(p));
+    extents_.assign(map.planes.size(), std::nullopt);
+    for (std::size_t p = 0; p < map.planes.size(); ++p) {
+      const auto id = static_cast<LandmarkId>(p);
+      map.planes[p].support = static_cast<std::int32_t>(map.members(id).size());
+      if (map.planes[p].alive && 2 * map.members(id).size() < options.min_members) map.erase_plane(id);
+    }
     for (std::size_t p = 0; p < map.planes.size(); ++p)
       for (std::size_t q = p + 1; q < map.planes.size() && map.planes[p].alive; ++q)
         if (map.planes[q].alive && coincide(map.planes[p], map.planes[q]) &&
-            extents_[p].meets(extents_[q], options.reach * depth_))
+            extent(map, p).meets(extent(map, q), options.reach * depth_))
           merge(map, static_cast<LandmarkId>(q), static_cast<LandmarkId>(p));
   }
 
-  void count(Map<S>& map) {
-    gather_extents(map, extents_);
-    for (PlaneLandmark<S>& plane : map.planes) plane.support = 0;
-    const auto add = [&](const auto& landmarks) {
-      for (const auto& landmark : landmarks)
-        if (landmark.alive && landmark.plane != kNone) ++map.planes[map.index(landmark.plane)].support;
-    };
-    add(map.points);
-    add(map.lines);
+  // As the plane's members cover it when this keyframe first asks.
+  const PlaneExtent<S>& extent(const Map<S>& map, std::size_t plane) {
+    if (!extents_[plane]) extents_[plane] = extent_of(map, static_cast<LandmarkId>(plane));
+    return *extents_[plane];
   }
 
   [[nodiscard]] bool coincide(const PlaneLandmark<S>& a, const PlaneLandmark<S>& b) const {
@@ -127,12 +126,11 @@ class ManhattanPlanes {
   }
 
   void merge(Map<S>& map, LandmarkId from, LandmarkId into) {
-    for (auto& point : map.points)
-      if (point.plane == from) point.plane = into;
-    for (auto& line : map.lines)
-      if (line.plane == from) line.plane = into;
+    map.move_members(from, into);
     map.erase_plane(from);
-    count(map);
+    map.planes[map.index(from)].support = 0;
+    map.planes[map.index(into)].support = static_cast<std::int32_t>(map.members(into).size());
+    extents_[map.index(into)].reset();
   }
 
   // The landmarks around that lie on no plane and may lie on one across the axis, by their place along it.
@@ -164,7 +162,7 @@ class ManhattanPlanes {
         if (!plane.alive || plane.axis != axis) continue;
         const Vec3<S> x = place(map, c);
         if (std::abs(plane.plane.offset(x)) > options.tolerance * depth_) continue;
-        if (!extents_[p].covers(x, options.reach * depth_)) continue;
+        if (!extent(map, p).covers(x, options.reach * depth_)) continue;
         enter(map, c, static_cast<LandmarkId>(p));
         return true;
       }
@@ -197,13 +195,16 @@ class ManhattanPlanes {
   }
 
   static void enter(Map<S>& map, const Candidate& c, LandmarkId plane) {
-    (c.line ? map.lines[map.index(c.id)].plane : map.points[map.index(c.id)].plane) = plane;
+    if (c.line)
+      map.lay_line(c.id, plane);
+    else
+      map.lay_point(c.id, plane);
     ++map.planes[map.index(plane)].support;
   }
 
   S depth_ = 1;
   LocalMap<S> local_;
-  std::vector<PlaneExtent<S>> extents_;  // by plane
+  std::vector<std::optional<PlaneExtent<S>>> extents_;  // by plane, of those that were asked for
   std::vector<Candidate> candidates_;
   std::vector<S> offsets_;
 };
