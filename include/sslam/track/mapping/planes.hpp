@@ -156,18 +156,35 @@ class ManhattanPlanes {
 
   // Candidates on a plane that stands already become its members.
   void join(Map<S>& map, std::int8_t axis) {
+    gather_near(map, axis);
     std::erase_if(candidates_, [&](const Candidate& c) {
-      for (std::size_t p = 0; p < map.planes.size(); ++p) {
-        const PlaneLandmark<S>& plane = map.planes[p];
-        if (!plane.alive || plane.axis != axis) continue;
+      for (const LandmarkId id : near_) {
         const Vec3<S> x = place(map, c);
-        if (std::abs(plane.plane.offset(x)) > options.tolerance * depth_) continue;
-        if (!extent(map, p).covers(x, options.reach * depth_)) continue;
-        enter(map, c, static_cast<LandmarkId>(p));
+        if (std::abs(map.planes[map.index(id)].plane.offset(x)) > options.tolerance * depth_) continue;
+        if (!extent(map, map.index(id)).covers(x, options.reach * depth_)) continue;
+        enter(map, c, id);
         return true;
       }
       return false;
     });
+  }
+
+  // The planes across the axis that pass the box around the candidates, or nearly: few of a large map's.
+  void gather_near(const Map<S>& map, std::int8_t axis) {
+    near_.clear();
+    if (candidates_.empty()) return;
+    Vec3<S> low = place(map, candidates_.front()), high = low;
+    for (const Candidate& c : candidates_) {
+      low = low.cwiseMin(place(map, c));
+      high = high.cwiseMax(place(map, c));
+    }
+    const Vec3<S> middle = (low + high) / 2, half = (high - low) / 2;
+    for (std::size_t p = 0; p < map.planes.size(); ++p) {
+      const PlaneLandmark<S>& plane = map.planes[p];
+      const S reach = plane.plane.normal.cwiseAbs().dot(half) + 2 * options.tolerance * depth_;
+      if (plane.alive && plane.axis == axis && std::abs(plane.plane.offset(middle)) <= reach)
+        near_.push_back(static_cast<LandmarkId>(p));
+    }
   }
 
   // The strongest plane among the candidates, which it takes with it; false when there is none.
@@ -206,6 +223,7 @@ class ManhattanPlanes {
   LocalMap<S> local_;
   std::vector<std::optional<PlaneExtent<S>>> extents_;  // by plane, of those that were asked for
   std::vector<Candidate> candidates_;
+  std::vector<LandmarkId> near_;  // planes
   std::vector<S> offsets_;
 };
 
