@@ -104,6 +104,7 @@
 #include "sslam/residual/point_on_plane.hpp"
 #include "sslam/residual/point_reprojection.hpp"
 #include "sslam/residual/similarity_edge.hpp"
+#include "sslam/solver/bundle/block_cholesky.hpp"
 #include "sslam/solver/bundle/bundle_equations.hpp"
 #include "sslam/solver/bundle/bundle_graph.hpp"
 #include "sslam/solver/bundle/bundle_solver.hpp"

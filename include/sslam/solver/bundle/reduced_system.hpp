@@ -4,12 +4,12 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "sslam/core/types.hpp"
+#include "sslam/solver/bundle/block_cholesky.hpp"
 
 namespace sslam {
 
@@ -72,17 +72,26 @@ class SparseSystem {
   [[nodiscard]] Eigen::Index stride(Eigen::Index at) const noexcept { return at < 6 * views_ ? 6 : 3; }
 
   [[nodiscard]] bool solve(const VecX& right, VecX& solution) {
-    fill(right.size());
-    if (grown_) factor_.analyzePattern(upper_);
+    if (grown_) analyse();
     grown_ = false;
-    factor_.factorize(upper_);
-    if (factor_.info() != Eigen::Success) return false;
-    solution = factor_.solve(right);
+    fill();
+    if (!factor_.factor()) return false;
+    solution.setZero(kSide * static_cast<Eigen::Index>(rows_.size()));
+    solution.head(6 * views_) = right.head(6 * views_);
+    for_planes([&](Eigen::Index from, Eigen::Index into) {
+      solution.template segment<3>(into) = right.template segment<3>(from);
+    });
+    factor_.solve(solution);
+    for_planes([&](Eigen::Index from, Eigen::Index into) {  // upwards: none is overwritten before it moves
+      const Vec3<S> step = solution.template segment<3>(into);
+      solution.template segment<3>(from) = step;
+    });
+    solution.conservativeResize(right.size());
     return true;
   }
 
  private:
-  using Sparse = Eigen::SparseMatrix<S>;
+  static constexpr Eigen::Index kSide = BlockCholesky<S>::kSide;
   struct Entry {
     Eigen::Index col;
     std::size_t first;  // of the block's values, column by column
@@ -91,36 +100,41 @@ class SparseSystem {
   [[nodiscard]] std::size_t number(Eigen::Index at) const noexcept {
     return static_cast<std::size_t>(at < 6 * views_ ? at / 6 : views_ + (at - 6 * views_) / 3);
   }
-  [[nodiscard]] Eigen::Index begin_of(std::size_t number) const noexcept {
-    const auto n = static_cast<Eigen::Index>(number);
-    return n < views_ ? 6 * n : 6 * views_ + 3 * (n - views_);
+  // A plane takes a block of six of the factor, whose second half stands for itself.
+  template <class F>
+  void for_planes(F f) const {
+    const auto planes = static_cast<Eigen::Index>(rows_.size()) - views_;
+    for (Eigen::Index p = 0; p < planes; ++p) f(6 * views_ + 3 * p, kSide * (views_ + p));
   }
 
-  // A row of blocks of the lower half is a column of the upper one.
-  void fill(Eigen::Index size) {
-    upper_.resize(size, size);
-    upper_.reserve(static_cast<Eigen::Index>(values_.size()));
-    for (std::size_t n = 0; n < rows_.size(); ++n) {
-      const Eigen::Index row = begin_of(n), height = stride(row);
-      for (Eigen::Index r = 0; r < height; ++r) {
-        upper_.startVec(row + r);
-        for (const Entry& entry : rows_[n]) {
-          const Eigen::Index width = entry.col == row ? r + 1 : stride(entry.col);
-          for (Eigen::Index c = 0; c < width; ++c)
-            upper_.insertBack(entry.col + c, row + r) =
-                values_[entry.first + static_cast<std::size_t>(c * height + r)];
-        }
+  void analyse() {
+    std::vector<std::vector<int>> columns(rows_.size());
+    for (std::size_t n = 0; n < rows_.size(); ++n)
+      for (const Entry& entry : rows_[n]) columns[n].push_back(static_cast<int>(number(entry.col)));
+    factor_.analyse(columns);
+  }
+
+  void fill() {
+    factor_.clear();
+    for (std::size_t n = 0; n < rows_.size(); ++n)
+      for (const Entry& entry : rows_[n]) {
+        const std::size_t col = number(entry.col);
+        const Eigen::Index height = static_cast<Eigen::Index>(n) < views_ ? 6 : 3;
+        const Eigen::Index width = stride(entry.col);
+        Mat<S, kSide, kSide> block = Mat<S, kSide, kSide>::Zero();
+        if (n == col) block.setIdentity();
+        for (Eigen::Index c = 0; c < width; ++c)
+          for (Eigen::Index r = 0; r < height; ++r)
+            block(r, c) = values_[entry.first + static_cast<std::size_t>(c * height + r)];
+        factor_.set(static_cast<int>(n), static_cast<int>(col), block);
       }
-    }
-    upper_.finalize();
   }
 
   Eigen::Index views_ = 0;
   std::vector<std::vector<Entry>> rows_;  // of each view and plane, from left to right
   std::vector<S> values_;
   bool grown_ = false;  // since the pattern was looked at
-  Sparse upper_;
-  Eigen::SimplicialLLT<Sparse, Eigen::Upper> factor_;
+  BlockCholesky<S> factor_;
 };
 
 }  // namespace sslam
