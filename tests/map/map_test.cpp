@@ -3,6 +3,7 @@
 
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "sslam/map/local_map.hpp"
 #include "support/catch.hpp"
@@ -115,6 +116,52 @@ TEST_CASE("A keyframe that is erased leaves its place to its parent and nothing 
   REQUIRE(map.pose(1).translation.x() == Approx(6));
   map.keyframes[0].cam_from_world.translation.x() -= 3;
   REQUIRE(map.pose(1).translation.x() == Approx(3));
+}
+
+TEST_CASE("A map that is renewed is the later one, and keeps the features that it has") {
+  Map<double> map = small_map(), earlier = map;
+  const auto* features = earlier.keyframes[0].frame.points.data();
+  map.add_keyframe(bare_keyframe(3));
+  map.observe_point(1, 3, 2);
+  map.update_covisibility(3);
+  map.erase_keyframe(2, 1);
+  map.erase_point(0);
+  map.points[1].position.x() = 7;
+  map.keyframes[0].cam_from_world.translation.x() = 2;
+  map.lay_point(1, map.add_plane({Vec3<double>::UnitX(), 7}, kNone));
+  earlier.renew_from(map);
+  REQUIRE(earlier.keyframes.size() == 4);
+  CHECK(earlier.keyframes[0].frame.points.data() == features);
+  CHECK(earlier.keyframes[0].cam_from_world.translation.x() == 2);
+  CHECK(earlier.keyframes[3].frame.points.size() == 3);
+  CHECK(earlier.keyframes[3].point_landmarks == map.keyframes[3].point_landmarks);
+  CHECK(earlier.keyframes[0].neighbours.size() == map.keyframes[0].neighbours.size());
+  CHECK_FALSE(earlier.keyframes[2].alive());
+  CHECK(earlier.keyframes[2].frame.points.empty());
+  CHECK(earlier.points[1].position.x() == 7);
+  CHECK(earlier.points[1].observations.size() == 3);
+  CHECK(earlier.members(0).points == std::vector<LandmarkId>{1});
+  CHECK(earlier.add_point({0, 0, 1}, 3) == 0);  // free there, free here
+}
+
+TEST_CASE("A plane knows its members, however they came to it") {
+  Map<double> map = small_map();
+  const LandmarkId plane = map.add_plane({Vec3<double>::UnitZ(), 5}, kNone);
+  const LandmarkId other = map.add_plane({Vec3<double>::UnitZ(), 6}, kNone);
+  CHECK(map.members(plane).size() == 0);
+  map.lay_point(1, plane);
+  map.lay_point(0, plane);
+  CHECK(map.members(plane).points == std::vector<LandmarkId>{0, 1});
+  map.move_members(plane, other);
+  CHECK(map.members(plane).size() == 0);
+  CHECK(map.points[0].plane == other);
+  map.fuse_points(0, 1);
+  CHECK(map.members(other).points == std::vector<LandmarkId>{1});
+  const Map<double> copy = map;
+  CHECK(copy.members(other).points == std::vector<LandmarkId>{1});
+  map.erase_plane(other);
+  CHECK(map.points[1].plane == kNone);
+  CHECK(map.members(other).size() == 0);
 }
 
 TEST_CASE("The local map lists each landmark once and keyframes by what they share") {

@@ -41,6 +41,24 @@ struct Keyframe {
 
   [[nodiscard]] bool alive() const noexcept { return parent == kNone; }
 
+  // Becomes what it is in a later state of its map. Features go as a whole or stay as they are: those that
+  // are here already are not copied.
+  void renew_from(const Keyframe& later) {
+    const bool has_features = frame.index == later.frame.index && frame.stamp == later.frame.stamp &&
+                              frame.points.size() == later.frame.points.size() &&
+                              frame.lines.size() == later.frame.lines.size();
+    if (!has_features) frame = later.frame;
+    id = later.id;
+    cam_from_world = later.cam_from_world;
+    point_landmarks = later.point_landmarks;
+    line_landmarks = later.line_landmarks;
+    line_axes = later.line_axes;
+    manhattan = later.manhattan;
+    neighbours = later.neighbours;
+    parent = later.parent;
+    cam_from_parent = later.cam_from_parent;
+  }
+
   // The same, which is yet to join a map and sees these landmarks of it.
   [[nodiscard]] Keyframe seeing(std::vector<LandmarkId> points, std::vector<LandmarkId> lines) && {
     point_landmarks.values_ = std::move(points);

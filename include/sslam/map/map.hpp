@@ -123,6 +123,20 @@ class Map {
     return members_.of(plane);
   }
 
+  // Becomes a later state of the same map, without copying the features that are here already.
+  void renew_from(const Map& later) {
+    keyframes.resize(later.keyframes.size());
+    for (std::size_t k = 0; k < keyframes.size(); ++k) keyframes[k].renew_from(later.keyframes[k]);
+    points = later.points;
+    lines = later.lines;
+    planes = later.planes;
+    world_from_manhattan = later.world_from_manhattan;
+    forget_indices();
+    free_points_ = later.free_points_;
+    free_lines_ = later.free_lines_;
+    free_planes_ = later.free_planes_;
+  }
+
   // Takes over all of another map; its ids follow those of this one.
   IdShift append(Map other) {
     const IdShift shift{static_cast<std::int32_t>(keyframes.size()), static_cast<std::int32_t>(points.size()),
@@ -145,9 +159,7 @@ class Map {
 
   // Finds the ids that can be given away in landmarks that were filled in from outside.
   void collect_free_ids() {
-    point_looks_.forget();
-    line_looks_.forget();
-    members_.forget();
+    forget_indices();
     free_points_.collect(points);
     free_lines_.collect(lines);
     free_planes_.collect(planes);
@@ -225,6 +237,12 @@ class Map {
   }
 
  private:
+  void forget_indices() {
+    point_looks_.forget();
+    line_looks_.forget();
+    members_.forget();
+  }
+
   template <class Landmarks>
   [[nodiscard]] static const LookIndex& made(LookIndex& looks, const Landmarks& landmarks) {
     if (!looks.made()) looks.make(landmarks);

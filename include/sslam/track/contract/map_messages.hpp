@@ -38,6 +38,7 @@ struct MapSnapshot {
   std::vector<S>
       scales;     // by keyframe: what loops have multiplied its lengths by since the map was handed over
   int loops = 0;  // closed since then
+  int given = 0;  // to the server when the map was: its first, its second, ...; 0: not from there
 };
 
 // Whether an id still means what it meant in a map of `known` keyframes. A free id is given away by a new

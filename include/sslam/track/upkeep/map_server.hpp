@@ -16,6 +16,7 @@ class MapServer {
   // From here on this is where the map grows.
   void begin(const Map<S>& map) {
     map_ = map;
+    ++given_;
     scales_.assign(map.keyframes.size(), S(1));
     loops_ = 0;
   }
@@ -41,9 +42,13 @@ class MapServer {
       scales_[k] *= answer.scale_at(static_cast<KeyframeId>(k));
   }
 
-  // The snapshot's buffers are used again.
+  // The snapshot's buffers are used again, and what it has of this map and never changes stays.
   void publish(MapSnapshot<S>& snapshot) const {
-    snapshot.map = map_;
+    if (snapshot.given == given_)
+      snapshot.map.renew_from(map_);
+    else
+      snapshot.map = map_;
+    snapshot.given = given_;
     snapshot.scales = scales_;
     snapshot.loops = loops_;
   }
@@ -61,6 +66,7 @@ class MapServer {
   Map<S> map_;
   std::vector<S> scales_;  // as in MapSnapshot
   int loops_ = 0;
+  int given_ = 0;  // maps that were given to this server
 };
 
 }  // namespace sslam
