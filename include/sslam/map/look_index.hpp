@@ -4,7 +4,6 @@
 // changes, so that a place is looked for among what looks alike and not among all.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,14 +32,17 @@ class LookIndex {
   // The landmarks are others: they are taken in by the next make().
   void forget() noexcept {
     heads_.clear();
-    nodes_.clear();
+    looks_.clear();
+    known_.clear();
+    for (auto& links : after_) links.clear();
+    for (auto& links : before_) links.clear();
   }
   [[nodiscard]] bool made() const noexcept { return !heads_.empty(); }
 
   template <class Landmarks>
   void make(const Landmarks& landmarks) {
+    forget();
     heads_.assign(kPieces << kPieceBits, kNone);
-    nodes_.clear();
     for (std::size_t i = 0; i < landmarks.size(); ++i)
       if (landmarks[i].alive) set(static_cast<LandmarkId>(i), landmarks[i].descriptor);
   }
@@ -48,58 +50,56 @@ class LookIndex {
   // The landmark looks like this from now on.
   void set(LandmarkId id, const Descriptor& descriptor) {
     if (!made()) return;
-    const auto at = static_cast<std::size_t>(id);
-    if (nodes_.size() <= at) nodes_.resize(at + 1);
-    Node& node = nodes_[at];
+    const std::size_t at = index(id);
+    if (known_.size() <= at) grow(at + 1);
     for (std::size_t p = 0; p < kPieces; ++p) {
       const std::size_t bucket = bucket_of(descriptor, p);
-      if (node.known && bucket == bucket_of(node.descriptor, p)) continue;
-      if (node.known) leave(node, p);
-      std::int32_t& head = heads_[bucket];
-      if (head != kNone) nodes_[static_cast<std::size_t>(head)].before[p] = id;
-      node.before[p] = kNone;
-      node.after[p] = head;
+      if (known_[at] != 0 && bucket == bucket_of(looks_[at], p)) continue;
+      if (known_[at] != 0) leave(at, p);
+      LandmarkId& head = heads_[bucket];
+      if (head != kNone) before_[p][index(head)] = id;
+      before_[p][at] = kNone;
+      after_[p][at] = head;
       head = id;
     }
-    node.descriptor = descriptor;
-    node.known = true;
+    looks_[at] = descriptor;
+    known_[at] = 1;
   }
 
   void remove(LandmarkId id) {
-    const auto at = static_cast<std::size_t>(id);
-    if (at >= nodes_.size() || !nodes_[at].known) return;
-    for (std::size_t p = 0; p < kPieces; ++p) leave(nodes_[at], p);
-    nodes_[at].known = false;
+    const std::size_t at = index(id);
+    if (at >= known_.size() || known_[at] == 0) return;
+    for (std::size_t p = 0; p < kPieces; ++p) leave(at, p);
+    known_[at] = 0;
   }
 
   // Calls visit(id, how many bits differ), more than once for one that shares several pieces. After make().
   template <class Visit>
   void near(const Descriptor& descriptor, Visit visit) const {
     for (std::size_t p = 0; p < kPieces; ++p)
-      for (LandmarkId id = heads_[bucket_of(descriptor, p)]; id != kNone;) {
-        const Node& node = nodes_[static_cast<std::size_t>(id)];
-        visit(id, hamming(descriptor, node.descriptor));
-        id = node.after[p];
-      }
+      for (LandmarkId id = heads_[bucket_of(descriptor, p)]; id != kNone; id = after_[p][index(id)])
+        visit(id, hamming(descriptor, looks_[index(id)]));
   }
 
  private:
   static constexpr std::size_t kPieces = 16, kPieceBits = 16;
 
-  // In the list of each piece's bucket.
-  struct Node {
-    std::array<LandmarkId, kPieces> after, before;
-    Descriptor descriptor;
-    bool known = false;
-  };
+  [[nodiscard]] static std::size_t index(LandmarkId id) noexcept { return static_cast<std::size_t>(id); }
 
-  void leave(const Node& node, std::size_t piece) {
-    const LandmarkId before = node.before[piece], after = node.after[piece];
-    if (after != kNone) nodes_[static_cast<std::size_t>(after)].before[piece] = before;
+  void grow(std::size_t size) {
+    for (auto& links : after_) links.resize(size, kNone);
+    for (auto& links : before_) links.resize(size, kNone);
+    looks_.resize(size);
+    known_.resize(size, 0);
+  }
+
+  void leave(std::size_t at, std::size_t piece) {
+    const LandmarkId before = before_[piece][at], after = after_[piece][at];
+    if (after != kNone) before_[piece][index(after)] = before;
     if (before != kNone)
-      nodes_[static_cast<std::size_t>(before)].after[piece] = after;
+      after_[piece][index(before)] = after;
     else
-      heads_[bucket_of(node.descriptor, piece)] = after;
+      heads_[bucket_of(looks_[at], piece)] = after;
   }
 
   [[nodiscard]] static std::size_t bucket_of(const Descriptor& descriptor, std::size_t piece) noexcept {
@@ -107,7 +107,9 @@ class LookIndex {
   }
 
   std::vector<LandmarkId> heads_;  // first landmark of each bucket; empty: not made
-  std::vector<Node> nodes_;        // by landmark
+  std::array<std::vector<LandmarkId>, kPieces> after_, before_;  // in its bucket of each piece, by landmark
+  std::vector<Descriptor> looks_;                                // by landmark
+  std::vector<std::uint8_t> known_;                              // by landmark: whether it is in
 };
 
 }  // namespace sslam

@@ -54,6 +54,7 @@ class PlaceRecognition {
         if (id != kNone) touch(id).excluded = true;
     for (std::size_t f = 0; f < features.size(); ++f)
       looks.near(features[f].descriptor, [&](LandmarkId id, int distance) {
+        if (!tells(distance)) return;
         Candidate& candidate = touch(id);
         if (!candidate.excluded) candidate.features.offer(distance, static_cast<std::int32_t>(f));
       });
@@ -65,6 +66,12 @@ class PlaceRecognition {
       candidate = {};
     }
     touched_.clear();
+  }
+
+  // Whether a feature so many bits off can be the best for a landmark, or too good beside the best.
+  [[nodiscard]] bool tells(int distance) const noexcept {
+    return distance <= options.max_distance ||
+           options.max_ratio * static_cast<S>(distance) < static_cast<S>(options.max_distance);
   }
 
   struct Candidate {
