@@ -191,6 +191,7 @@ int walk(const Arguments& arguments) {
       "| planes | "
       "rest | loop search | closing, sum | MB |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   const auto pipeline = std::make_unique<P>();
+  keyframe_costs.reserve(static_cast<std::size_t>(frames));  // a mapping thread may be at it
   Frame<double> frame;
   io::Trajectory truth;
   std::vector<FrameCost> costs;
