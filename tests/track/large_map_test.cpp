@@ -92,6 +92,14 @@ TEST_CASE("What a frame and a keyframe touch of the map does not grow with the m
   }
   CHECK(tracked > 100);
   CHECK(keyframes > 3);
+  // A walk over the whole map would have been seen.
+  PageWatch watch;
+  watch_beyond(tracker.map(), here, watch);
+  int alive = 0;
+  for (const auto& point : tracker.map().points) alive += point.alive;
+  CHECK(alive > 1000);
+  const PageWatch::Count points = watch.open_all()[1];
+  CHECK(points.touched == points.pages);
   for (const PageWatch::Count& count : worst) {
     INFO(count.touched << " of " << count.pages << " pages");
     CHECK(count.pages > 20);
