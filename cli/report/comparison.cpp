@@ -200,6 +200,7 @@ std::vector<std::string> labels_of(const std::vector<ComparedRun>& runs) {
   std::map<std::string, int> count;
   for (const ComparedRun& one : runs) ++count[one.run.name];
   std::vector<std::string> labels;
+  labels.reserve(runs.size());
   for (const ComparedRun& one : runs)
     labels.push_back(count[one.run.name] == 1 ? one.run.name : one.folder.lexically_normal().string());
   return labels;
