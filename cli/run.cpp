@@ -167,8 +167,8 @@ void add_output_options(CLI::App& command, RunSettings& s) {
 }
 
 // What a run that goes on does not take from the one that stopped, and what may stand beside --resume.
-constexpr const char* kOwn[] = {"config", "out", "quiet", "verbose", "json-progress"};
-constexpr const char* kBesideResume[] = {"resume", "quiet", "verbose", "json-progress"};
+constexpr const char* kOwn[] = {"config", "out", "quiet", "verbose", "json-progress", "foxglove"};
+constexpr const char* kBesideResume[] = {"resume", "quiet", "verbose", "json-progress", "foxglove"};
 
 // The settings of the run that stopped in this folder.
 RunSettings resumed_settings(const std::string& folder) {
@@ -201,6 +201,7 @@ void run_as_given(const CLI::App& command, const RunSettings& given, const std::
                      (other->get_positional() ? "" : std::string("--")) + name_of(*other) + " out");
   RunSettings settings = resumed_settings(resume);
   settings.verbosity = given.verbosity;
+  settings.foxglove = given.foxglove;
   run(std::move(settings));
 }
 

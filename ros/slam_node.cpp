@@ -5,6 +5,7 @@
 
 #include "sslam/io/bags/camera_text.hpp"
 #include "sslam/io/bags/upright.hpp"
+#include "sslam/io/maps/map_file.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "sslam/system/parameters.hpp"
 #include "sslam/system/system.hpp"
@@ -44,6 +45,7 @@ Pose ros_pose(const sslam::SE3<double>& world_from_cam) {
 struct SlamNode::Parts : sslam::Observer {
   NodeSettings wanted;
   sslam::Settings settings;
+  std::optional<sslam::Map<double>> known;  // of `load`
   std::optional<sslam::System> system;
   bool map_is_new = false;
 
@@ -62,6 +64,7 @@ SlamNode::SlamNode(NodeSettings wanted) : parts_(std::make_unique<Parts>()) {
   sslam::ParameterTable table = sslam::all_parameters(sslam::find_preset(wanted.preset));
   if (const auto answer = sslam::set_parameters(settings.parameters, table); !answer.ok())
     throw sslam::Error("set: " + answer.message);
+  if (!wanted.load.empty()) parts_->known = sslam::io::load_map(wanted.load);
   parts_->wanted = std::move(wanted);
 }
 
@@ -83,7 +86,7 @@ void SlamNode::take_camera(const CameraInfo& info) {
   parts_->settings.camera = sslam::parse_camera_text(text, "camera_info").camera;
   sslam::System& system = parts_->system.emplace(parts_->settings);
   system.add_observer(*parts_);
-  if (!parts_->wanted.load.empty()) system.load(parts_->wanted.load);
+  if (parts_->known) system.resume(*std::exchange(parts_->known, std::nullopt));
   system.localise_only(parts_->wanted.localise_only);
 }
 

@@ -175,12 +175,21 @@ class EvalPage {
     return range;
   }
 
+  // On one row: each name has its share of the page, and a longer one its end alone, where paths differ.
   void draw_legend() {
+    constexpr double kLetter = 7.5, kSample = 60;
+    const double share = (kRight + kWidth - kLeft) / static_cast<double>(estimates_.size() + 1);
+    const auto most = static_cast<std::size_t>(std::max(1.0, (share - kSample) / kLetter));
     double x = kLeft;
     const auto add = [&](const std::string& name, const FigureColour& colour) {
       figure_.lines.push_back({{{x, 26}, {x + 26, 26}}, colour, 2.5});
-      figure_.texts.push_back({{x + 32, 30}, name, 13, FigureAnchor::kStart, kInk});
-      x += 60 + 7.5 * static_cast<double>(name.size());
+      const std::string shown =
+          name.size() <= most
+              ? name
+              : "..." +
+                    name.substr(name.size() - std::min(name.size(), most - std::min<std::size_t>(most, 3)));
+      figure_.texts.push_back({{x + 32, 30}, shown, 13, FigureAnchor::kStart, kInk});
+      x += kSample + kLetter * static_cast<double>(shown.size());
     };
     add("ground truth", kTruth);
     for (std::size_t i = 0; i < estimates_.size(); ++i) add(estimates_[i].name, ink(i));

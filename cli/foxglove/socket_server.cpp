@@ -41,7 +41,11 @@ struct SocketCalls {
       case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
         return server.ending_ || server.clients_.size() >= kMostClients ? 1 : 0;
       case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
-        return lws_get_protocol(connection)->name != kNoProtocol && server.knows_token(connection) ? 0 : 1;
+        // Asked again: others may have shaken hands since.
+        return lws_get_protocol(connection)->name != kNoProtocol && server.clients_.size() < kMostClients &&
+                       server.knows_token(connection)
+                   ? 0
+                   : 1;
       case LWS_CALLBACK_ESTABLISHED:
         server.open(connection);
         return 0;

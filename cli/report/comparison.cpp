@@ -32,11 +32,16 @@ struct ComparedRun {
   std::vector<double> stamps;  // of all its frames, increasing
 };
 
+std::optional<double> stamp_in(const io::CsvTable& frames, std::size_t row, std::size_t column) {
+  const auto stamp = io::parse_number<double>(frames.cell(row, column));
+  return stamp && std::isfinite(*stamp) ? std::optional(*stamp) : std::nullopt;
+}
+
 std::vector<double> stamps_of_frames(const RunFolder& run) {
   std::vector<double> stamps;
   const std::size_t column = run.frames.column("stamp");
   for (std::size_t row = 0; row < run.frames.rows() && column < run.frames.columns.size(); ++row)
-    if (const auto stamp = io::parse_number<double>(run.frames.cell(row, column))) stamps.push_back(*stamp);
+    if (const auto stamp = stamp_in(run.frames, row, column)) stamps.push_back(*stamp);
   if (stamps.empty()) stamps = io::stamps_of(run.trajectory);
   std::sort(stamps.begin(), stamps.end());
   return stamps;
@@ -147,7 +152,7 @@ class FrameRows {
   explicit FrameRows(const io::CsvTable& frames) : count_(frames.rows()) {
     const std::size_t column = frames.column("stamp");
     for (std::size_t row = 0; row < count_ && column < frames.columns.size(); ++row)
-      if (const auto stamp = io::parse_number<double>(frames.cell(row, column))) row_of_[*stamp] = row;
+      if (const auto stamp = stamp_in(frames, row, column)) row_of_[*stamp] = row;
   }
 
   [[nodiscard]] std::vector<double> empty(std::size_t size) const {
@@ -240,6 +245,8 @@ Comparison compare_runs(const std::vector<fs::path>& folders, const fs::path& pa
   std::vector<ComparedRun> runs;
   for (const fs::path& folder : folders) {
     runs.push_back(read_run(folder));
+    if (runs.back().stamps.size() < kFewest)
+      throw Error(folder.string() + ": has fewer than " + std::to_string(kFewest) + " frames to compare");
     demand_same_dataset(runs.front(), runs.back());
   }
   const CommonWorld reference = choose_reference(runs);

@@ -72,7 +72,7 @@ class Plot {
   top() {
     let high = this.whole, usual = 0;
     for (const s of this.series) {
-      const values = s.values().filter((value) => !Number.isNaN(value));
+      const values = s.values().filter(Number.isFinite);
       if (values.length === 0) continue;
       high = values.reduce((a, b) => Math.max(a, b), high);
       usual = Math.max(usual, quantile(values, 0.98));

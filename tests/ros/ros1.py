@@ -70,6 +70,8 @@ def main(sslam, node, player, rosmaster, room):
             assert "max_linse" in said and "max_lines" in said, said
             said = call(node, "__name:=wrong", "_preset:=none", env=world, code=1)
             assert "none: no such preset" in said, said
+            said = call(node, "__name:=mapless", f"_load:={scratch / 'no.sslam'}", env=world, code=1)
+            assert "no.sslam" in said, said
             words = ("_live:=false", f"_save:={scratch / 'map.sslam'}", f"_set/{SET[0].replace('.', '/')}:={SET[1]}")
             with running(node, *words, number=signal.SIGINT, env=world) as tracking:
                 told = tell(tracking, player, *(camera[key] for key in ("width", "height", "fx", "fy", "cx", "cy")), scratch / "list", env=world)

@@ -112,6 +112,7 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     rotation.forget();
     trial = world_.trial;
     trial.end_loss();
+    trial.drift.end();
     atlas.forget_place_matches();
   }
 

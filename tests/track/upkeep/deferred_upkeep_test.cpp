@@ -112,6 +112,23 @@ TEST_CASE("A posted keyframe stands in the tracker's map at once and in the kept
   REQUIRE(x.upkeep.renew(x.map) == nullptr);  // it has been taken
 }
 
+TEST_CASE("Keyframes that a snapshot does not have yet may see the same landmark") {
+  Exchange x;
+  for (const KeyframeId id : {2, 3, 4}) {
+    TrackedFrame<double> frame = frame_at(id);
+    frame.point_landmarks[0] = 0;
+    REQUIRE(x.insert(frame, id - 1) == id);
+  }
+  REQUIRE(x.step());  // the snapshot has one of the three
+  (void)x.renew();
+  REQUIRE(x.map.keyframes.size() == 5);
+  for (const KeyframeId id : {2, 3, 4}) {
+    const auto& neighbours = x.map.keyframes[x.map.index(id)].neighbours;
+    REQUIRE(neighbours.size() == 4);
+    for (const Neighbour& n : neighbours) REQUIRE((n.keyframe != id && n.keyframe >= 0 && n.keyframe < 5));
+  }
+}
+
 TEST_CASE("Keyframes that a snapshot does not have yet are added to it and stand by their references") {
   Exchange x;
   TrackedFrame<double> second = frame_at(2), third = frame_at(3), in_hand = frame_at(3.5);

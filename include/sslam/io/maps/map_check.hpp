@@ -64,6 +64,7 @@ inline void check_keyframe(const Map<double>& map, std::size_t k, int axes) {
 template <class Landmarks, class Features>
 void check_landmarks(const Map<double>& map, const Landmarks& landmarks, Features features) {
   for (const auto& landmark : landmarks) {
+    demand(landmark.alive || (landmark.plane == kNone && landmark.observations.empty()));
     demand(landmark.first_keyframe == kNone || inside(landmark.first_keyframe, map.keyframes.size()));
     demand(landmark.plane == kNone ||
            (inside(landmark.plane, map.planes.size()) && map.planes[map.index(landmark.plane)].alive));
