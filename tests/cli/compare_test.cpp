@@ -138,8 +138,12 @@ TEST_CASE("report refuses runs that cannot be compared, and writes nothing") {
   require_refused(runs.compare(other.string()), "other: has another ground truth than " + runs.a.string());
   fs::remove(other / "groundtruth.txt");
   require_refused(runs.compare(other.string()), "other: is a run of " + other.string() + "_room, ");
-  (void)run_program("run " + runs.folder.string() + " --quiet --normals none --start 58 --out " +
+  (void)run_program("run " + runs.folder.string() + " --quiet --normals none --start 56 --out " +
                     later.string());
+  const fs::path brief = runs.scratch.path() / "brief";
+  (void)run_program("run " + runs.folder.string() + " --quiet --normals none --start 58 --out " +
+                    brief.string());
+  require_refused(runs.compare(brief.string()), "brief: has fewer than 3 frames to compare");
   const fs::path early = runs.scratch.path() / "early";
   (void)run_program("run " + runs.folder.string() + " --quiet --normals none --end 4 --out " +
                     early.string());
