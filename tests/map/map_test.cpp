@@ -134,7 +134,7 @@ TEST_CASE("A map that is renewed is the later one, and keeps the features that i
   CHECK(earlier.keyframes[0].frame.points.data() == features);
   CHECK(earlier.keyframes[0].cam_from_world.translation.x() == 2);
   CHECK(earlier.keyframes[3].frame.points.size() == 3);
-  CHECK(earlier.keyframes[3].point_landmarks == map.keyframes[3].point_landmarks);
+  CHECK(earlier.keyframes[3].point_landmarks == map.keyframes[3].point_landmarks.values());
   CHECK(earlier.keyframes[0].neighbours.size() == map.keyframes[0].neighbours.size());
   CHECK_FALSE(earlier.keyframes[2].alive());
   CHECK(earlier.keyframes[2].frame.points.empty());
