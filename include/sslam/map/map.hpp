@@ -40,6 +40,7 @@ class Map {
   KeyframeId add_keyframe(Keyframe<S> keyframe) {
     const auto id = static_cast<KeyframeId>(keyframes.size());
     keyframe.id = id;
+    keyframe.neighbours.clear();  // those of another map, where some may be newer than it
     keyframes.push_back(std::move(keyframe));
     Keyframe<S>& kf = keyframes.back();
     enter(kf.point_landmarks.values_, points, id);

@@ -132,7 +132,6 @@ class DeferredUpkeep {
       keyframe.cam_from_world = change_.pose(own.reference, keyframe.cam_from_world);
       std::vector<LandmarkId> points = keyframe.point_landmarks, lines = keyframe.line_landmarks;
       change_.forget_gone_matches(points, lines);
-      keyframe.neighbours.clear();  // some are newer than it, and not in this map yet
       map.add_keyframe(std::move(keyframe).seeing(std::move(points), std::move(lines)));
       add_own(own.id, own.reference);
     }
