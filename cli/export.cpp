@@ -94,6 +94,11 @@ void warn_of_wide_lens(const RunFolder& run) {
       " degrees across: undistort the images to it before they are used");
 }
 
+// Whether files of the format name the keyframes' images.
+bool names_images(const std::string& format) {
+  return format == "colmap" || format == "nerfstudio";
+}
+
 // ", 17 images" where they were asked for.
 std::string export_images(const ExportSettings& settings, const RunFolder& run, const fs::path& stage) {
   if (!settings.images) return {};
@@ -125,7 +130,7 @@ std::string export_nerfstudio(const ExportSettings& settings, const RunFolder& r
                   "are not known");
   if (counts.missing > 0)
     print_note(
-        "put " + std::to_string(counts.missing) + " images into " + (out / "images").string() +
+        "put " + std::to_string(counts.missing) + " images into " + (out / kStraightFolder).string() +
         ", by the names in transforms.json, or let --images write them: the run's dataset is a video or a "
         "bag, or no longer there");
   return "transforms.json (" + std::to_string(counts.images) + " keyframes), points.ply (" +
@@ -162,10 +167,9 @@ std::string export_floor_plan(const ExportSettings& settings, const RunFolder& r
 
 std::string export_map(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
                        const fs::path& out) {
-  const bool colmap = settings.format == "colmap", nerfstudio = settings.format == "nerfstudio";
-  if ((colmap || nerfstudio) && !settings.images) warn_of_wide_lens(run);
-  if (colmap) return export_colmap(settings, run, stage);
-  if (nerfstudio) return export_nerfstudio(settings, run, stage, out);
+  if (names_images(settings.format) && !settings.images) warn_of_wide_lens(run);
+  if (settings.format == "colmap") return export_colmap(settings, run, stage);
+  if (settings.format == "nerfstudio") return export_nerfstudio(settings, run, stage, out);
   if (settings.format == "glb") return export_glb(settings, run, stage);
   if (settings.format == "floorplan") return export_floor_plan(settings, run, stage);
   if (settings.format == "mcap") {
@@ -178,7 +182,7 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
 }
 
 void run_export(const ExportSettings& settings) {
-  if (settings.images && settings.format != "colmap" && settings.format != "nerfstudio")
+  if (settings.images && !names_images(settings.format))
     throw UsageError("--images: goes with --format colmap or nerfstudio, found " + settings.format);
   const RunFolder run = read_run_folder(settings.run);
   const fs::path out =

@@ -3,7 +3,6 @@
 // warnings.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +10,7 @@
 #include "cli/input/chunk_codec.hpp"
 #include "cli/results/map_figures.hpp"
 #include "cli/results/ros_messages.hpp"
+#include "cli/results/run_camera.hpp"
 #include "cli/results/run_folder.hpp"
 #include "sslam/io/bags/cdr_writer.hpp"
 #include "sslam/io/bags/definitions.hpp"
@@ -24,20 +24,6 @@ struct McapCounts {
 };
 
 namespace mcap_export_detail {
-
-// That of the images as they are. Throws Error when the settings do not tell it.
-[[nodiscard]] inline Camera<double> camera_of(const RunFolder& run) {
-  try {
-    const auto& settings = run.metrics.at("settings");
-    const auto p = settings.at("pinhole").get<std::array<double, 4>>();
-    const auto lens = settings.at("distortion").get<std::array<double, 5>>();
-    const auto size = settings.at("image_size").get<std::array<int, 2>>();
-    return {{p[0], p[1], p[2], p[3]}, {lens[0], lens[1], lens[2], lens[3], lens[4]}, size[0], size[1]};
-  } catch (const nlohmann::json::exception&) {
-    throw Error(
-        "metrics.json: does not tell the camera of the run (settings: pinhole, distortion, image_size)");
-  }
-}
 
 [[nodiscard]] inline double seconds_per_stamp(const RunFolder& run) {
   const auto settings = run.metrics.find("settings");
@@ -58,7 +44,7 @@ inline McapCounts write_mcap_export(const std::filesystem::path& file, const Run
   const auto add_first = [&](const RosTopic& topic, const std::string& message) {
     out.add(add_topic(topic), begin, message);
   };
-  add_first(ros_topics::kCamera, camera_message(begin, mcap_export_detail::camera_of(run)));
+  add_first(ros_topics::kCamera, camera_message(begin, camera_of(run)));
   const std::uint16_t log = add_topic(ros_topics::kLog);
   const auto warnings = run.metrics.find("warnings");
   if (warnings != run.metrics.end() && warnings->is_array())

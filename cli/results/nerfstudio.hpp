@@ -13,6 +13,7 @@
 
 #include "cli/input/open_images.hpp"
 #include "cli/results/keyframe_images.hpp"
+#include "cli/results/run_camera.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/results/straight_images.hpp"
 #include "sslam/io/files/text.hpp"
@@ -59,30 +60,22 @@ inline Json matrix_of(const SE3<double>& world_from_cam) {
   return rows;
 }
 
-// Throws Error when the settings do not tell the camera.
-inline Json camera_of(const RunFolder& run) {
-  try {
-    const Json& settings = run.metrics.at("settings");
-    const auto pinhole = settings.at("pinhole").get<std::array<double, 4>>();
-    const auto lens = settings.at("distortion").get<std::array<double, 5>>();
-    const auto size = settings.at("image_size").get<std::array<int, 2>>();
-    return {{"camera_model", "OPENCV"},
-            {"fl_x", pinhole[0]},
-            {"fl_y", pinhole[1]},
-            {"cx", pinhole[2] + 0.5},
-            {"cy", pinhole[3] + 0.5},
-            {"w", size[0]},
-            {"h", size[1]},
-            {"k1", lens[0]},
-            {"k2", lens[1]},
-            {"k3", lens[4]},
-            {"p1", lens[2]},
-            {"p2", lens[3]},
-            {"ply_file_path", "points.ply"}};
-  } catch (const nlohmann::json::exception&) {
-    throw Error(
-        "metrics.json: does not tell the camera of the run (settings: pinhole, distortion, image_size)");
-  }
+inline Json json_of(const Camera<double>& camera) {
+  const Pinhole<double>& pinhole = camera.pinhole;
+  const RadTan<double>& lens = camera.distortion;
+  return {{"camera_model", "OPENCV"},
+          {"fl_x", pinhole.fx},
+          {"fl_y", pinhole.fy},
+          {"cx", pinhole.cx + 0.5},
+          {"cy", pinhole.cy + 0.5},
+          {"w", camera.width},
+          {"h", camera.height},
+          {"k1", lens.k1},
+          {"k2", lens.k2},
+          {"k3", lens.k3},
+          {"p1", lens.p1},
+          {"p2", lens.p2},
+          {"ply_file_path", "points.ply"}};
 }
 
 }  // namespace nerfstudio_detail
@@ -93,15 +86,16 @@ inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesy
                                          const std::filesystem::path& out, bool straight) {
   namespace detail = nerfstudio_detail;
   NerfstudioCounts counts;
-  detail::Json json = detail::camera_of(run);
+  Camera<double> camera = camera_of(run);
   const KeyframeImages images = keyframe_images(run);
   std::map<std::string, std::filesystem::path> files;
   if (straight) {
-    for (const char* coefficient : {"k1", "k2", "k3", "p1", "p2"}) json[coefficient] = 0.0;
+    camera.distortion = {};
     for (const std::string& name : images.names) files[name] = out / kStraightFolder / name;
   } else {
     files = detail::image_files(run.metrics.at("settings").value("dataset", std::string()));
   }
+  detail::Json json = detail::json_of(camera);
   json["frames"] = detail::Json::array();
   for (const auto& keyframe : run.map.keyframes) {
     if (!keyframe.alive()) continue;
@@ -118,7 +112,7 @@ inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesy
       path = std::filesystem::relative(std::filesystem::absolute(file->second),
                                        std::filesystem::absolute(out), error);
     if (path.empty()) {
-      path = std::filesystem::path("images") / images.names[id];
+      path = std::filesystem::path(kStraightFolder) / images.names[id];
       ++counts.missing;
     }
     json["frames"].push_back({{"file_path", path.generic_string()},

@@ -2,7 +2,6 @@
 // The images of a run's keyframes as the exported camera sees them: without the bend of the lens.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -13,6 +12,7 @@
 #include "cli/input/image_file.hpp"
 #include "cli/input/open_images.hpp"
 #include "cli/results/keyframe_images.hpp"
+#include "cli/results/run_camera.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
 
 namespace sslam::cli {
@@ -35,16 +35,10 @@ struct ExportedRun {
           "--images: the run's images are of a wide lens, which are not undistorted here; leave it out");
     of.dataset = settings.at("dataset").get<std::string>();
     of.topic = settings.value("topic", std::string());
-    const auto pinhole = settings.at("pinhole").get<std::array<double, 4>>();
-    const auto lens = settings.at("distortion").get<std::array<double, 5>>();
-    const auto size = settings.at("image_size").get<std::array<int, 2>>();
-    of.camera.pinhole = {pinhole[0], pinhole[1], pinhole[2], pinhole[3]};
-    of.camera.distortion = {lens[0], lens[1], lens[2], lens[3], lens[4]};
-    of.camera.width = size[0];
-    of.camera.height = size[1];
   } catch (const nlohmann::json::exception&) {
-    throw Error("metrics.json: does not tell dataset and camera of the run (settings)");
+    throw Error("metrics.json: does not tell the dataset of the run (settings)");
   }
+  of.camera = camera_of(run);
   return of;
 }
 
