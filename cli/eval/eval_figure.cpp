@@ -120,6 +120,15 @@ Vec3<double> angles_of(const SO3<double>& rotation) {
          (180 / std::numbers::pi);
 }
 
+// The whole name, or so many bytes of its end, where paths differ; characters of UTF-8 stay whole.
+std::string ending_of(const std::string& name, std::size_t most) {
+  static const std::string kCut = "...";
+  if (name.size() <= std::max(most, kCut.size())) return name;
+  std::size_t from = name.size() - (std::max(most, kCut.size()) - kCut.size());
+  while (from < name.size() && (static_cast<unsigned char>(name[from]) & 0xC0U) == 0x80U) ++from;
+  return kCut + name.substr(from);
+}
+
 class EvalPage {
  public:
   EvalPage(const io::Trajectory& truth, const std::vector<PlottedEstimate>& estimates, double per_stamp)
@@ -175,7 +184,7 @@ class EvalPage {
     return range;
   }
 
-  // On one row: each name has its share of the page, and a longer one its end alone, where paths differ.
+  // On one row: each name has its share of the page.
   void draw_legend() {
     constexpr double kLetter = 7.5, kSample = 60;
     const double share = (kRight + kWidth - kLeft) / static_cast<double>(estimates_.size() + 1);
@@ -183,11 +192,7 @@ class EvalPage {
     double x = kLeft;
     const auto add = [&](const std::string& name, const FigureColour& colour) {
       figure_.lines.push_back({{{x, 26}, {x + 26, 26}}, colour, 2.5});
-      const std::string shown =
-          name.size() <= most
-              ? name
-              : "..." +
-                    name.substr(name.size() - std::min(name.size(), most - std::min<std::size_t>(most, 3)));
+      const std::string shown = ending_of(name, most);
       figure_.texts.push_back({{x + 32, 30}, shown, 13, FigureAnchor::kStart, kInk});
       x += kSample + kLetter * static_cast<double>(shown.size());
     };

@@ -40,6 +40,30 @@ bool says(const cli::Figure& figure, const std::string& words) {
 
 }  // namespace
 
+TEST_CASE("names in the legend of the page of eval stay on it, by their ends and in whole characters") {
+  const io::Trajectory poses = walk(20, 0, 99);
+  const std::vector<double> stamps = io::stamps_of(poses), errors(20, 0.1);
+  std::vector<cli::PlottedEstimate> estimates;
+  for (const char* end : {"_first", "_second", "_third", "_fourth", "_fifth"}) {
+    std::string name;
+    for (int i = 0; i < 40; ++i) name += "\u00fc";
+    estimates.push_back({name + end, poses, stamps, errors, errors});
+  }
+  const cli::Figure figure = cli::eval_figure(poses, estimates, 1);
+  std::size_t named = 0;
+  for (const cli::FigureText& text : figure.texts) {
+    if (text.at.y() > 40) continue;  // below the legend
+    CHECK(text.at.x() + 7.5 * static_cast<double>(text.text.size()) <= figure.width);
+    for (const cli::PlottedEstimate& estimate : estimates)
+      if (text.text.ends_with(estimate.name.substr(80))) {
+        ++named;
+        CHECK(text.text.substr(0, 3) == "...");
+        CHECK(static_cast<unsigned char>(text.text[3]) == 0xC3);  // where a character begins
+      }
+  }
+  CHECK(named == estimates.size());
+}
+
 TEST_CASE("the page of eval has a curve of each estimate in each panel, broken where poses pause") {
   const io::Trajectory truth = walk(20, 0, 99), whole = walk(20, 0.1, 99), paused = walk(20, 0.2, 10);
   const std::vector<double> stamps = io::stamps_of(whole), errors(20, 0.1);
