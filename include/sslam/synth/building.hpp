@@ -39,7 +39,8 @@ class BuildingBuilder {
         add_room(scene_, decor_, walls_[c], low, high, scene_.cells[c].sill > 0.0 ? 3 : 2);
       });
     }
-    ClosedPath path(tour_route(TourPlanner(plan_).tour(), random_), options_.motion, random_.next());
+    const std::uint64_t sway = random_.next();
+    ClosedPath path(tour_route(TourPlanner(plan_).tour(), random_), options_.motion, sway);
     furnish(path);
     if (options_.lit) light_late(scene_, options_.lighting, for_each);
     return {std::move(scene_), std::move(path)};

@@ -48,8 +48,9 @@ class Decor {
     constexpr std::array kPatterns{Pattern::kPlanks, Pattern::kTiles, Pattern::kCarpet};
     if (!textured()) return {floor_};
     Paint paint = tinted(0.5f, 0.12f, 0.55f);
-    paint.texture = scene_.add(
-        bake_pattern(kPatterns[random_.below(kPatterns.size())], width, height, 1.4f * texel_m_, bits()));
+    const std::uint32_t seed = bits();
+    const Pattern pattern = kPatterns[random_.below(kPatterns.size())];
+    paint.texture = scene_.add(bake_pattern(pattern, width, height, 1.4f * texel_m_, seed));
     return paint;
   }
 

@@ -159,8 +159,9 @@ class FurnitureMaker {
       const double x = -half + size.x() * (0.08 + 0.32 * i),
                    width = 0.2 * size.x() * random.uniform(0.6, 1.0);
       const double y = random.uniform(0.1, 0.35) * size.y(), z = size.z();
-      box(place, {x, y, z}, {x + width, y + random.uniform(0.12, 0.25), z + random.uniform(0.04, 0.35)},
-          decor_.furniture());
+      const Paint paint = decor_.furniture();
+      const double depth = random.uniform(0.12, 0.25), height = random.uniform(0.04, 0.35);
+      box(place, {x, y, z}, {x + width, y + depth, z + height}, paint);
     }
   }
 

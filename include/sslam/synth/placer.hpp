@@ -42,9 +42,7 @@ class FurniturePlacer {
 
   bool place(Piece piece, const Vec3<double>& size, const Wall& wall, double x,
              const std::vector<Wall>& walls) {
-    const double turn = piece == Piece::kPillar || !turned_
-                            ? 0.0
-                            : random_.uniform(0.2, 0.8) * (random_.below(2) == 0 ? 1.0 : -1.0);
+    const double turn = piece == Piece::kPillar || !turned_ ? 0.0 : random_turn();
     const double gap = turn == 0.0 ? 0.02 : 0.02 + 0.5 * size.x() * std::sin(std::abs(turn));
     for (const Opening& o : wall.openings) {
       const bool low_enough = o.kind == Opening::kWindow && size.z() < o.bottom - 0.08 && size.z() > 0.0;
@@ -66,6 +64,11 @@ class FurniturePlacer {
     placed_.push_back(footprint);
     maker_.make(piece, footprint.place, size);
     return true;
+  }
+
+  double random_turn() noexcept {
+    const double angle = random_.uniform(0.2, 0.8);
+    return random_.below(2) == 0 ? angle : -angle;
   }
 
   static Vec2<double> corner(const Area& f, double a, double b) {
