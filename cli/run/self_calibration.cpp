@@ -120,6 +120,18 @@ void SelfCalibration::find(Settings settings, CameraChoice& camera, const std::s
                         " (--calibration fixed keeps the given one)");
 }
 
+bool SelfCalibration::refuted(std::size_t with_given, std::size_t with_found) {
+  if (!record_.replaced || 10 * with_found >= 9 * with_given) return false;
+  record_.replaced = false;
+  record_.last = {};
+  record_.last.camera = record_.given;
+  warnings_ = {source_ +
+               ": the images seem to contradict this calibration, but with the camera that was found " +
+               std::to_string(with_found) + " frames have a pose, with the given one " +
+               std::to_string(with_given) + ": the given one stands"};
+  return true;
+}
+
 void SelfCalibration::keep(const CameraChoice& camera, CheckpointHead& head) const {
   head.used = camera.camera;
   head.camera_source = camera.source;

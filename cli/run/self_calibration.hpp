@@ -3,6 +3,7 @@
 // asks for where it does not.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ class SelfCalibration {
   // What the map says that has been made.
   void examine(const System& system);
   [[nodiscard]] bool contradicts() const noexcept { return record_.last.verdict == CameraVerdict::kDiffers; }
+  // With the camera that was found as many frames have a pose as this, and with the given one as that. Where
+  // it is far less, the given one is the record's again, and a warning says so.
+  [[nodiscard]] bool refuted(std::size_t with_given, std::size_t with_found);
   // For who cannot track again.
   [[nodiscard]] std::string advice(const std::string& where) const;
 

@@ -166,15 +166,27 @@ void WholeRun::begin_pass() {
   pass_->track(dataset_, stream_options(), checkpoints_);
 }
 
+void WholeRun::track_again() {
+  pass_.reset();
+  wanted_ = system_settings();
+  begin_pass();
+}
+
 void WholeRun::examine_camera() {
   calibration_->examine(pass_->system);
   const bool second = calibration_->replaced() && !calibration_->is_guess();  // and the last
   if (!second && repeats() && !calibration_->is_guess() && calibration_->contradicts()) {
+    const std::size_t tracked = outcome().trajectory.size();
+    const CameraChoice given = camera_;
     pass_.reset();
     calibration_->find(system_settings(), camera_, found_at());
-    wanted_ = system_settings();
-    begin_pass();
-    calibration_->examine(pass_->system);
+    track_again();
+    if (!outcome().interrupted && calibration_->refuted(tracked, outcome().trajectory.size())) {
+      camera_ = given;
+      track_again();
+    } else {
+      calibration_->examine(pass_->system);
+    }
   } else if (!second && calibration_->contradicts()) {
     pass_->system.warn(calibration_->advice(found_at()));
   }

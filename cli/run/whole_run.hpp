@@ -43,6 +43,7 @@ class WholeRun {
   [[nodiscard]] Settings system_settings() const;
   [[nodiscard]] FrameStreamOptions stream_options();
   void begin_pass();
+  void track_again();
   void examine_camera();
   void follow_up();
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/room_copy.hpp"
+#include "cli/run/self_calibration.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 
 namespace self_calibration_test {
@@ -113,6 +114,29 @@ TEST_CASE("run tracks once where it cannot track again, and says what to do") {
   CHECK(says(walk.metrics(), "track them again with --camera"));
   CHECK(walk.metrics()["calibration"]["replaced"] == false);
   CHECK(fs::exists(walk.out / "camera_found.yaml"));
+}
+
+TEST_CASE("a camera that was found gives way to the given one where it has far fewer poses") {
+  sslam::io::Dataset dataset;
+  const sslam::cli::MaskSource masks;
+  sslam::cli::CameraChoice camera;
+  camera.camera.pinhole.fx = kFocal;
+  camera.source = "given.yaml";
+  sslam::cli::SelfCalibration calibration(dataset, masks, camera, false);
+  CHECK_FALSE(calibration.refuted(248, 0));  // none was found
+  sslam::cli::CheckpointHead head;
+  head.used = camera.camera;
+  head.used.pinhole.fx = 0.9 * kFocal;
+  head.camera_replaced = true;
+  head.camera_warnings = {"tracked with the camera that was found"};
+  calibration.go_on(head, camera);
+  CHECK_FALSE(calibration.refuted(248, 240));
+  CHECK(calibration.replaced());
+  REQUIRE(calibration.refuted(248, 0));
+  CHECK_FALSE(calibration.replaced());
+  REQUIRE(calibration.warnings().size() == 1);
+  CHECK(calibration.warnings()[0].find(
+            "0 frames have a pose, with the given one 248: the given one stands") != std::string::npos);
 }
 
 }  // namespace self_calibration_test
