@@ -9,6 +9,7 @@
 #include "sslam/core/descriptor.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/line2.hpp"
+#include "sslam/image/feature_patch.hpp"
 #include "sslam/image/normal_field.hpp"
 
 namespace sslam {
@@ -19,6 +20,7 @@ struct PointFeature {
   S sigma = 1;              // standard deviation of each coordinate, pixels
   S angle = 0;              // dominant gradient direction, radians
   std::uint8_t octave = 0;  // level of the image pyramid
+  std::int32_t patch = -1;  // its place in the frame's patches; -1: none is kept
   Descriptor descriptor;
 };
 
@@ -43,6 +45,7 @@ struct Frame {
   std::vector<PointFeature<S>> points;
   std::vector<LineFeature<S>> lines;
   NormalField normals;
+  std::vector<FeaturePatch> patches;  // of some points or of all, in any order
 };
 
 }  // namespace sslam

@@ -9,6 +9,7 @@
 #include "sslam/geometry/se3.hpp"
 #include "sslam/map/frame.hpp"
 #include "sslam/map/landmark.hpp"
+#include "sslam/map/seen_patches.hpp"
 
 namespace sslam {
 
@@ -40,6 +41,10 @@ struct Keyframe {
   SE3<S> cam_from_parent;
 
   [[nodiscard]] bool alive() const noexcept { return parent == kNone; }
+
+  void drop_unseen_patches() {
+    keep_seen_patches<S>(std::exchange(frame.patches, {}), point_landmarks.values(), frame);
+  }
 
   // Becomes what it is in a later state of its map. Features go as a whole or stay as they are: those that
   // are here already are not copied.

@@ -142,7 +142,7 @@ class ImageFrontend {
   }
 
   void extract_points(Frame<double>& frame) {
-    points.extract(grey_, frame.points);
+    points.extract(grey_, frame.points, frame.patches);
     if (mask_.active()) {
       std::erase_if(frame.points, [&](const PointFeature<double>& point) {
         constexpr double kReach = 5;  // of a corner and its refinement, pixels of its level
@@ -152,8 +152,22 @@ class ImageFrontend {
     if (camera.distortion.is_identity()) return;
     std::erase_if(frame.points, [&](PointFeature<double>& point) {
       point.pixel = camera.undistort_pixel(point.pixel);
-      return !seen(point.pixel, 0);
+      if (!seen(point.pixel, 0)) return true;
+      Mat2<float>& spacing = frame.patches[static_cast<std::size_t>(point.patch)].spacing;
+      spacing = distortion_at(point.pixel).inverse().template cast<float>() * spacing;
+      return false;
     });
+  }
+
+  // The derivative of the distorted pixel by the undistorted one.
+  [[nodiscard]] Mat2<double> distortion_at(const Vec2<double>& undistorted) const noexcept {
+    Mat2<double> jacobian;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vec2<double> step = Vec2<double>::Unit(axis);
+      jacobian.col(axis) =
+          (camera.distort_pixel(undistorted + step) - camera.distort_pixel(undistorted - step)) / 2;
+    }
+    return jacobian;
   }
 
   // Straight edges are straight, and whole, only in the undistorted image. What lies beyond the lens's view

@@ -63,7 +63,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
       backfill.keep(frames_.current(), result.has_pose());
     else
       backfill.clear();
-    if (keep_frames && !localise_only) final_pass.keep(frames_.current().frame);
+    if (keep_frames && !localise_only) final_pass.keep(frames_.current());
     result.world = world_.number;
     return result;
   }

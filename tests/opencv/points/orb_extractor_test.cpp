@@ -18,7 +18,8 @@ Points extract_points(const cv::Mat& image, const OrbOptions& options = {}) {
   OrbExtractor extractor;
   extractor.options = options;
   Points points;
-  extractor.extract(image, points);
+  std::vector<FeaturePatch> patches;
+  extractor.extract(image, points, patches);
   return points;
 }
 
@@ -56,21 +57,48 @@ TEST_CASE("images without a corner give no points") {
 TEST_CASE("an image that is refused clears what was there") {
   OrbExtractor extractor;
   Points points;
-  extractor.extract(draw_texture({320, 240}, 40, 1), points);
+  std::vector<FeaturePatch> patches;
+  extractor.extract(draw_texture({320, 240}, 40, 1), points, patches);
   REQUIRE(!points.empty());
-  extractor.extract(cv::Mat(), points);
+  REQUIRE(!patches.empty());
+  extractor.extract(cv::Mat(), points, patches);
   CHECK(points.empty());
+  CHECK(patches.empty());
 }
 
 TEST_CASE("the same image gives the same points") {
   const cv::Mat image = draw_texture({320, 240}, 40, 2);
   OrbExtractor reused;
   Points first, second;
-  reused.extract(image, first);
-  reused.extract(draw_texture({200, 150}, 40, 3), second);
-  reused.extract(image, second);
+  std::vector<FeaturePatch> patches;
+  reused.extract(image, first, patches);
+  reused.extract(draw_texture({200, 150}, 40, 3), second, patches);
+  reused.extract(image, second, patches);
   CHECK(same(first, second));
   CHECK(same(first, extract_points(image)));
+}
+
+TEST_CASE("each point keeps a patch of its level, with itself at its centre") {
+  const cv::Mat image = draw_texture({320, 240}, 40, 5);
+  OrbExtractor extractor;
+  Points points;
+  std::vector<FeaturePatch> patches;
+  extractor.extract(image, points, patches);
+  REQUIRE(points.size() > 50);
+  for (const auto& point : points) {
+    const FeaturePatch& patch = patches.at(static_cast<std::size_t>(point.patch));
+    CHECK((patch.centre - Vec2<float>::Constant(FeaturePatch::kRadius)).cwiseAbs().maxCoeff() <= 0.51F);
+    CHECK(patch.spacing(0, 0) == Approx(point.sigma / extractor.options.sigma).epsilon(1e-5));
+    if (point.octave > 0) continue;
+    // At full resolution the patch is the image around the point.
+    const Vec2<double> corner = point.pixel - patch.centre.cast<double>();
+    const int left = static_cast<int>(std::lround(corner.x())),
+              top = static_cast<int>(std::lround(corner.y()));
+    CHECK(corner.x() == Approx(left).margin(1e-4));
+    for (int row = 0; row < FeaturePatch::kSide; row += 7)
+      for (int column = 0; column < FeaturePatch::kSide; column += 7)
+        CHECK(patch.view().at(column, row) == image.at<std::uint8_t>(top + row, left + column));
+  }
 }
 
 TEST_CASE("points are finite and inside the image and within the budget") {

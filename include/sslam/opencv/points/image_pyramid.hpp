@@ -40,6 +40,11 @@ class ImagePyramid {
   [[nodiscard]] const cv::Mat& image(std::size_t level) const noexcept { return levels_[level].image; }
   [[nodiscard]] double scale(std::size_t level) const noexcept { return levels_[level].scale_x; }
 
+  // Pixels of the full image for each of a level, along x and y.
+  [[nodiscard]] Vec2<double> spacing(std::size_t level) const noexcept {
+    return {levels_[level].scale_x, levels_[level].scale_y};
+  }
+
   // Pixels of a level to pixels of the full image. Both count from the centre of their top left pixel, hence
   // the half pixel.
   [[nodiscard]] Vec2<double> to_full(const Vec2<double>& pixel, std::size_t level) const noexcept {

@@ -15,6 +15,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/image/corner_refiner.hpp"
 #include "sslam/image/corner_spreader.hpp"
+#include "sslam/image/feature_patch.hpp"
 #include "sslam/image/image_noise.hpp"
 #include "sslam/image/rotated_brief.hpp"
 #include "sslam/map/frame.hpp"
@@ -62,10 +63,12 @@ class OrbExtractor {
  public:
   OrbOptions options;
 
-  // Replaces `points` with the corners of `grey` (8 bit, one channel), in distorted pixels of that image. An
-  // image too small for a patch gives none.
-  void extract(const cv::Mat& grey, std::vector<PointFeature<double>>& points) {
+  // Replaces `points` with the corners of `grey` (8 bit, one channel), in distorted pixels of that image, and
+  // `patches` with what it shows around them. An image too small for a patch gives none.
+  void extract(const cv::Mat& grey, std::vector<PointFeature<double>>& points,
+               std::vector<FeaturePatch>& patches) {
     points.clear();
+    patches.clear();
     if (grey.empty() || grey.type() != CV_8UC1) return;
     pyramid_.build(grey, options.levels, options.ratio, 2 * kBorder + 8);
     double weight = 0;
@@ -75,7 +78,7 @@ class OrbExtractor {
     for (std::size_t level = 0; level < pyramid_.size(); ++level) {
       const double share = 1 / pyramid_.scale(level);
       detect(pyramid_.image(level), static_cast<int>(std::lround(left * share / weight)));
-      describe(level, points);
+      describe(level, points, patches);
       left -= static_cast<int>(corners_.size());
       weight -= share;
     }
@@ -83,7 +86,7 @@ class OrbExtractor {
 
  private:
   static constexpr int kBorder = RotatedBrief::kRadius + 1;  // kept free of corners, pixels of the level
-  static_assert(kBorder >= CornerRefiner::kMargin + 2);
+  static_assert(kBorder >= CornerRefiner::kMargin + 2 && kBorder > FeaturePatch::kRadius + 1);
 
   // Fills corners_ with at most `budget` corners of a level.
   void detect(const cv::Mat& image, int budget) {
@@ -106,7 +109,8 @@ class OrbExtractor {
     spreader_.spread(corners_, view.size(), {options.cell, budget, options.min_distance, {}, 0});
   }
 
-  void describe(std::size_t level, std::vector<PointFeature<double>>& points) {
+  void describe(std::size_t level, std::vector<PointFeature<double>>& points,
+                std::vector<FeaturePatch>& patches) {
     if (corners_.empty()) return;
     const cv::Mat& image = pyramid_.image(level);
     cv::GaussianBlur(image, smooth_, {7, 7}, 2, 2, cv::BORDER_REFLECT_101);
@@ -120,7 +124,10 @@ class OrbExtractor {
       point.angle = angle;
       point.octave = static_cast<std::uint8_t>(level);
       point.descriptor = brief_.describe(smooth, x, y, angle);
+      point.patch = static_cast<std::int32_t>(patches.size());
       points.push_back(point);
+      patches.push_back(cut_patch(view, corner.x, corner.y));
+      patches.back().spacing = pyramid_.spacing(level).cast<float>().asDiagonal();
     }
   }
 

@@ -107,7 +107,7 @@ concept UpkeepStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame, Map
 
 // Goes over the whole run once more when its last frame has been tracked.
 template <class T, class S>
-concept FinalStage = requires(T stage, const T& done, const Frame<S>& frame) {
+concept FinalStage = requires(T stage, const T& done, const TrackedFrame<S>& frame) {
   stage.keep(frame);
   { done.read_out() } -> std::same_as<double>;  // seconds of a rolling shutter; 0: none
 };

@@ -52,12 +52,16 @@ class KeyframeMapping {
 
   // Completes the map that initialisation has just made; the frame is its last keyframe.
   void begin(Map<S>& map, TrackedFrame<S>& frame, S median_depth);
+
+ private:
+  static constexpr std::size_t kYoung = 20;  // keyframes from whose free features most new landmarks are made
 };
 
 template <Scalar S, MapOptimiser<S> Optimiser, PlaneStep<S> Planes>
 KeyframeId KeyframeMapping<S, Optimiser, Planes>::insert(Map<S>& map, TrackedFrame<S>& frame,
                                                          S median_depth) {
   const KeyframeId id = map.add_keyframe(frame.to_keyframe());
+  if (map.index(id) >= kYoung) map.keyframes[map.index(id) - kYoung].drop_unseen_patches();
   culling.cull(map, id);
   creation.create(map, id, median_depth);
   fusion.fuse(map, id);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The final pass, after the last frame: the whole map is adjusted at once, then every frame is tracked again
-// in it. A frame keeps the errors of the young map that it was tracked in otherwise, and one that had no pose
-// may get one, from its neighbours or by the place that it shows. Of a rolling shutter, whose read-out time
-// is told or found, features are moved to the moment of the middle row, by the motion that the trajectory
-// tells.
+// The final pass, after the last frame: features that see one landmark are aligned, the whole map is adjusted
+// at once, then every frame is tracked again in it. A frame keeps the errors of the young map that it was
+// tracked in otherwise, and one that had no pose may get one, from its neighbours or by the place that it
+// shows. Of a rolling shutter, whose read-out time is told or found, features are moved to the moment of the
+// middle row, by the motion that the trajectory tells.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
+#include "sslam/map/feature_alignment.hpp"
 #include "sslam/map/map_adjustment.hpp"
+#include "sslam/map/seen_patches.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/worlds/read_out_search.hpp"
@@ -25,14 +27,14 @@ namespace sslam {
 
 template <Scalar S>
 struct FinalPassOptions {
-  std::size_t max_frames = 3000;  // that are kept for it, 100 kB each; those after them stay as they are
+  std::size_t max_frames = 3000;  // that are kept for it, 200 kB each; those after them stay as they are
   int max_misses = 5;   // frames in a row without a pose, beyond which a sweep does not guess where it is
   double read_out = 0;  // seconds from the first row of an image to the last; 0: not told
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("max_frames", self.max_frames, Unit::kCount, 0, 10000000,
-          "that are kept to be tracked again, 100 kB each; the others keep their poses");
+          "that are kept to be tracked again, 200 kB each; the others keep their poses");
     visit("max_misses", self.max_misses, Unit::kCount, 0, 1000,
           "frames in a row without a pose while those behind them get one");
     visit("read_out", self.read_out, Unit::kSeconds, 0, 0.2,
@@ -47,6 +49,7 @@ class FinalPass {
   FinalPassOptions<S> options;
   MapAdjustment<S, BundleSolver<S>> adjustment;
   ReadOutSearch<S> read_out_search;
+  FeatureAlignment<S> alignment;
 
   FinalPass() {
     adjustment.solver.options.max_iterations = 20;
@@ -57,12 +60,14 @@ class FinalPass {
   static void parameters(Self& self, Visit&& visit) {
     visit_within("", self.options, visit);
     visit_stage("adjustment.", self.adjustment, visit);
+    visit_stage("alignment.", self.alignment, visit);
     visit_within("shutter.", self.read_out_search.options, visit);
   }
 
-  // A frame has been tracked, or lost; its features are copied.
-  void keep(const Frame<S>& frame) {
+  // A frame has been tracked, or lost; its features are copied, with the patches of those that see landmarks.
+  void keep(const TrackedFrame<S>& tracked) {
     if (frames_.size() >= options.max_frames) return;
+    const Frame<S>& frame = tracked.frame;
     Frame<S>& kept = frames_.emplace_back();
     kept.index = frame.index;
     kept.stamp = frame.stamp;
@@ -71,6 +76,7 @@ class FinalPass {
     kept.height = frame.height;
     kept.points = frame.points;
     kept.lines = frame.lines;
+    keep_seen_patches<S>(frame.patches, tracked.point_landmarks, kept);
   }
 
   // The map has its last keyframe. Poses go into the log; the frames are forgotten.
@@ -80,6 +86,7 @@ class FinalPass {
     read_out_ = options.read_out;
     if (!map.empty() && !frames_.empty()) {
       log.sort();
+      if (alignment.align(map) > 0) take_from_keyframes(map, log);
       const auto track_all = [&] {
         adjustment.optimise_all(map);
         last_.point_landmarks.clear();
@@ -134,8 +141,21 @@ class FinalPass {
     recent_.gather(step > 0 ? last_ : around_, around_);
     PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame_);
     if (estimate.ok()) estimate = refinement.refine(map, nullptr, frame_);
-    if (estimate.ok()) place(i, reference, map, log);
+    if (estimate.ok()) {
+      align(map, refinement);
+      place(i, reference, map, log);
+    }
     if (!straightens(i)) std::swap(frames_[i], frame_.frame);
+  }
+
+  // frame_ has a pose; it gets that of its features once they are aligned.
+  template <class Refinement>
+  void align(Map<S>& map, Refinement& refinement) {
+    const SE3<S> found = frame_.cam_from_world;
+    if (alignment.align(map, found, frame_.point_landmarks, frame_.frame) == 0) return;
+    last_.read_back(frame_);
+    if (refinement.refine(map, nullptr, frame_).ok()) return;
+    frame_.read_back(last_);
   }
 
   // frame_ has its pose, as frame i.
@@ -163,6 +183,17 @@ class FinalPass {
       for (std::size_t j = i + 1; j < frames_.size() && lost(j); ++j)
         track(j, 1, map, fallback, refinement, log);
       for (std::size_t j = i; j-- > 0 && lost(j);) track(j, -1, map, fallback, refinement, log);
+    }
+  }
+
+  // What became keyframes is as it was seen, but for where its features are.
+  void take_from_keyframes(const Map<S>& map, const TrajectoryLog<S>& log) {
+    for (Frame<S>& frame : frames_) {
+      const TrajectoryEntry<S>* entry = log.find(frame.index);
+      if (entry == nullptr) continue;
+      const Keyframe<S>& keyframe = map.keyframes[map.index(map.surviving(entry->reference))];
+      if (is_keyframe(keyframe, frame) && keyframe.frame.points.size() == frame.points.size())
+        frame.points = keyframe.frame.points;
     }
   }
 

@@ -11,7 +11,7 @@ namespace sslam {
 template <Scalar S>
 struct NoFinalPass {
   [[nodiscard]] double read_out() const noexcept { return 0; }
-  void keep(const Frame<S>&) noexcept {}
+  void keep(const TrackedFrame<S>&) noexcept {}
   template <class Fallback, class Refinement>
   void run(Map<S>&, Fallback&, Refinement&, Relocalisation<S>&, TrajectoryLog<S>&) noexcept {}
 };
