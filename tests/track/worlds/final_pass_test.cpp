@@ -19,6 +19,13 @@ void track_walk(P& pipeline, Simulation& simulation) {
   pipeline.finish();
 }
 
+// As the tracker hands it over where it has found no landmark.
+TrackedFrame<double> unmatched(Frame<double> frame) {
+  TrackedFrame<double> tracked;
+  tracked.adopt(frame);
+  return tracked;
+}
+
 }  // namespace
 
 TEST_CASE("Frames that are tracked again in the finished map are nearer to the truth") {
@@ -42,7 +49,7 @@ TEST_CASE("The final pass gives a pose to frames that had none, and keeps the ot
       log.add(map, entry.index, entry.stamp, entry.reference, pipeline.trajectory().pose(map, entry));
   const std::size_t known = log.entries().size();
   FinalPass<double> pass;
-  for (std::size_t k = 0; k < simulation.size(); ++k) pass.keep(simulation.frame(k));
+  for (std::size_t k = 0; k < simulation.size(); ++k) pass.keep(unmatched(simulation.frame(k)));
   pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   REQUIRE(log.entries().size() == known + 3);
   for (std::size_t k = 0; k < log.entries().size(); ++k)
@@ -64,7 +71,7 @@ TEST_CASE("The final pass recognises frames from which no neighbour with a pose 
   FinalPass<double> pass;
   for (std::size_t k = 0; k < simulation.size(); ++k) {
     const bool dark = k >= kCut && k < kCut + kDark;
-    pass.keep(dark ? simulation.dark_frame(k) : simulation.frame(k));
+    pass.keep(unmatched(dark ? simulation.dark_frame(k) : simulation.frame(k)));
   }
   pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   REQUIRE(log.entries().size() == known + kCut);
@@ -108,7 +115,7 @@ TEST_CASE("An empty map, or a run without a frame, has a final pass without effe
   presets::Structure<double> pipeline;
   FinalPass<double> pass;
   pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
-  pass.keep(Frame<double>());
+  pass.keep(unmatched({}));
   pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   CHECK(log.entries().empty());
 }
