@@ -3,6 +3,7 @@
 // plugged in.
 #pragma once
 
+#include <Eigen/LU>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
