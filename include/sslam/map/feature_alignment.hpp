@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Features that see one landmark, laid over each other: a corner detector places each by itself, half a pixel
-// off, and no two in the same way. Where the patches are compared, warped as the surface and the poses say,
-// they agree to a tenth of that.
+// Features that see one landmark, laid over each other. A corner detector places each by itself, and no two
+// in the same way. Where their patches are compared, warped as the surface and the poses say, they agree
+// twice as well.
 #pragma once
 
 #include <cmath>
