@@ -111,6 +111,22 @@ TEST_CASE("Without a Manhattan frame the floor's own points say which way is dow
   CHECK(floor.camera_height == Approx(kHeight).epsilon(0.05));
 }
 
+TEST_CASE("A floor whose landmarks scatter by a tenth of its depth is found, and at its depth") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    MapScene scene = make_scene();
+    Map<double> map = scene.make_map();
+    Random random(seed);
+    for (auto& point : map.points) {
+      const double a = random.uniform(-0.05, 0.05), b = random.uniform(-0.05, 0.05);
+      const double c = random.uniform(-0.05, 0.05);
+      if (point.alive && std::abs(point.position.y()) == kHeight) point.position.y() *= 1 + a + b + c;
+    }
+    const Floor<double> floor = find_floor(map);
+    REQUIRE(floor.status == FloorStatus::kFound);
+    CHECK(floor.camera_height == Approx(kHeight).epsilon(0.05));
+  }
+}
+
 TEST_CASE("A table is not the floor under it") {
   MapScene scene = make_scene();
   Map<double> map = scene.make_map();

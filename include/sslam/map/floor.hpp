@@ -17,7 +17,7 @@ namespace sslam {
 template <Scalar S>
 struct FloorOptions {
   S max_lean = radians(S(40));  // between the vertical and the mean of the cameras' y axes
-  S thickness = S(0.03);        // half of it, over the height of the cameras
+  S thickness = S(0.03);        // half of it, over the height of the cameras; up to twice as much is tried
   S contrast = S(1.6);          // landmarks in the layer over those in as thick a layer above it
   S sigmas = S(3);              // by which the layer has more of them, against chance
   S max_below = S(0.3);         // landmarks below the layer over those in it: under a floor there is nothing
@@ -144,6 +144,16 @@ template <Scalar S>
   return {0, 0};
 }
 
+// Landmarks of a short walk scatter more than the layer is thick, and spill over its edges.
+template <Scalar S>
+[[nodiscard]] std::pair<std::size_t, std::size_t> thinnest_layer(const std::vector<S>& depths,
+                                                                 FloorOptions<S> options) {
+  const S thickest = 2 * options.thickness;
+  for (; options.thickness <= thickest; options.thickness *= S(1.25))
+    if (const auto layer = lowest_layer(depths, options); layer.first != layer.second) return layer;
+  return {0, 0};
+}
+
 }  // namespace floor_detail
 
 // Cameras are taken to be held upright on the whole. The vertical is the Manhattan axis nearest to their y
@@ -167,7 +177,7 @@ template <Scalar S>
   for (const Vec3<S>& place : places)
     if (const S depth = down.dot(place) - eye; depth > 0) depths.push_back(depth);
   std::sort(depths.begin(), depths.end());
-  const auto [first, last] = detail::lowest_layer(depths, options);
+  const auto [first, last] = detail::thinnest_layer(depths, options);
   if (last == first) return floor;
   const S level = eye + depths[first + (last - first) / 2];
   std::vector<S> heights;
