@@ -2,6 +2,7 @@
 // Poses that belong to images by their names, as COLMAP's do, and when those images were taken.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -84,14 +85,19 @@ using NameClock = std::map<std::string, double>;  // stamps by the images' file 
                                                   const std::string& file, io::Warnings& warnings) {
   io::Trajectory trajectory;
   if (clock.empty()) {
+    NameClock named;  // in the order of the names, which COLMAP's need not be
+    for (const io::NamedPose& pose : poses) named.emplace(file_name_of(pose.name), 0);
     std::vector<std::filesystem::path> names;
-    for (const io::NamedPose& pose : poses) names.emplace_back(file_name_of(pose.name));
-    const auto stamps = io::stamps_of_names(names);
-    if (!stamps)
+    for (const auto& [name, unknown] : named) names.emplace_back(name);
+    std::sort(names.begin(), names.end(),
+              [](const auto& a, const auto& b) { return io::natural_less(a.string(), b.string()); });
+    const io::NameStamps stamps = io::stamps_of_names(names);
+    if (stamps.seconds.empty())
       throw Error(file + ": its images have names that are no stamps, such as " + poses.front().name +
                   "; compare it with the folder of a run or of a dataset that has these images");
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      trajectory.push_back({stamps->seconds[i], poses[i].world_from_cam});
+    for (std::size_t i = 0; i < names.size(); ++i) named[names[i].string()] = stamps.seconds[i];
+    for (const io::NamedPose& pose : poses)
+      trajectory.push_back({named[file_name_of(pose.name)], pose.world_from_cam});
   } else {
     for (const io::NamedPose& pose : poses)
       if (const auto stamp = clock.find(file_name_of(pose.name)); stamp != clock.end())

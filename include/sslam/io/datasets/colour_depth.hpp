@@ -70,8 +70,9 @@ inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& f
     frame.depth = same.string();
     ++found;
   }
-  if (const auto named = stamps_of_names(depths); found == 0 && named) {
-    for (const StampPair& pair : associate(frame_stamps(dataset), named->seconds, kMaxStampDifference)) {
+  if (found == 0) {
+    const NameStamps named = stamps_of_names(depths);
+    for (const StampPair& pair : associate(frame_stamps(dataset), named.seconds, kMaxStampDifference)) {
       dataset.frames[pair.a].depth = depths[pair.b].string();
       ++found;
     }

@@ -113,7 +113,7 @@ inline void attach_euroc_truth(Dataset& dataset, const std::filesystem::path& ma
     std::erase(dataset.warnings, list.string() + ": " + unit_note(kNanoseconds));
   } else {
     const auto images = list_files(camera / "data", is_image_name);
-    if (!stamps_of_names(images))
+    if (stamps_of_names(images).seconds.empty())
       throw Error(list.string() + ": is missing, and the names in " + (camera / "data").string() +
                   " are no stamps in nanoseconds");
     dataset = frames_from_images(camera / "data", images, kDefaultFrameRate);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/name_stamps.hpp"
 #include "sslam/io/files/files.hpp"
-#include "sslam/io/files/stamp_unit.hpp"
 
 namespace sslam::io {
 
@@ -23,13 +21,15 @@ namespace sslam::io {
   Dataset dataset;
   dataset.layout = Layout::kImages;
   dataset.root = root;
-  const std::optional<NameStamps> named = stamps_of_names(images);
-  if (named && !named->unit.is_seconds())
-    dataset.warnings.push_back(root.string() + ": names are " + unit_note(named->unit));
+  const NameStamps named = stamps_of_names(images);
+  const bool counted = named.seconds.empty();
+  if (!named.note.empty() && images.size() > 1)  // one image alone needs no clock
+    dataset.warnings.push_back(root.string() + ": " + named.note +
+                               (counted ? ": images are counted, at the frame rate" : ""));
   for (std::size_t i = 0; i < images.size(); ++i) {
     FrameEntry frame;
     frame.image = images[i].string();
-    frame.stamp = named ? named->seconds[i] : static_cast<double>(i) / frame_rate;
+    frame.stamp = counted ? static_cast<double>(i) / frame_rate : named.seconds[i];
     dataset.frames.push_back(std::move(frame));
   }
   drop_bad_frames(dataset, root);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stamps that are the names of images: seconds with a point (1341836537.655662), whole numbers of a finer
-// unit (1341836537655662000), or seconds and the rest (1341836537_655662000). Other numbers are counters.
+// unit (1341836537655662000), seconds and the rest (1341836537_655662000), or dates (20240501_123015). Other
+// numbers are counters.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +10,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "sslam/io/datasets/name_dates.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/stamp_unit.hpp"
 #include "sslam/io/files/text.hpp"
@@ -18,11 +21,16 @@
 namespace sslam::io {
 
 struct NameStamps {
-  std::vector<double> seconds;
-  StampUnit unit;  // of the names
+  std::vector<double> seconds;  // one for each name; empty: the names are no stamps
+  std::string note;             // what is to be said about them; empty: nothing
 };
 
 namespace name_stamps_detail {
+
+struct Numbers {
+  std::vector<double> seconds;
+  StampUnit unit;  // of the names
+};
 
 // 1998 to 2065.
 [[nodiscard]] inline bool is_epoch(double seconds) noexcept {
@@ -48,19 +56,19 @@ struct SplitName {
   return name;
 }
 
-// Whole numbers. A date such as 20230815093012 is not the time of a clock.
-[[nodiscard]] inline std::optional<NameStamps> stamps_of_numbers(std::vector<double> stamps) {
+// Whole numbers.
+[[nodiscard]] inline std::optional<Numbers> stamps_of_numbers(std::vector<double> stamps) {
   const StampUnit unit = stamp_unit_of(stamps, StampsOf::kOther);
   for (double& stamp : stamps) stamp /= unit.per_second;
   const double last = *std::max_element(stamps.begin(), stamps.end());
   constexpr double kLongestRun = 1e6;  // days, for a clock that begins with the recording
   const bool sensible = is_epoch(last) || (!unit.is_seconds() && last < kLongestRun);
-  return sensible ? std::optional(NameStamps{std::move(stamps), unit}) : std::nullopt;
+  return sensible ? std::optional(Numbers{std::move(stamps), unit}) : std::nullopt;
 }
 
 // Seconds and, as another number, what is left of them. Without leading zeros its unit is that of the
 // longest.
-[[nodiscard]] inline NameStamps stamps_of_pairs(const std::vector<SplitName>& names) {
+[[nodiscard]] inline Numbers stamps_of_pairs(const std::vector<SplitName>& names) {
   std::size_t longest = 0;
   bool padded = true;
   for (const SplitName& name : names) {
@@ -68,7 +76,7 @@ struct SplitName {
     padded = padded && name.part.size() == names.front().part.size();
   }
   const std::size_t digits = padded ? longest : (longest > 6 ? 9 : (longest > 3 ? 6 : 3));
-  NameStamps result;
+  Numbers result;
   for (const SplitName& name : names) {
     const std::string zeros(digits > name.part.size() ? digits - name.part.size() : 0, '0');
     result.seconds.push_back(parse_number<double>(name.whole + "." + zeros + name.part).value_or(0));
@@ -76,12 +84,9 @@ struct SplitName {
   return result;
 }
 
-}  // namespace name_stamps_detail
-
-// Nothing where the names are no stamps.
-[[nodiscard]] inline std::optional<NameStamps> stamps_of_names(
+// Nothing where the names are no numbers of a clock.
+[[nodiscard]] inline std::optional<Numbers> numbers_of_names(
     const std::vector<std::filesystem::path>& images) {
-  using namespace name_stamps_detail;
   if (images.empty()) return std::nullopt;
   std::vector<SplitName> names;
   for (const std::filesystem::path& image : images) {
@@ -98,12 +103,24 @@ struct SplitName {
   }
   if (separator == 0) return stamps_of_numbers(std::move(wholes));
   if (separator != '.') return stamps_of_pairs(names);
-  NameStamps result;
+  Numbers result;
   for (const SplitName& name : names)
     result.seconds.push_back(parse_number<double>(name.whole + "." + name.part).value_or(0));
   result.unit = stamp_unit_of(result.seconds, StampsOf::kOther);
   for (double& stamp : result.seconds) stamp /= result.unit.per_second;
   return result;
+}
+
+}  // namespace name_stamps_detail
+
+// `images` in the order of their names.
+[[nodiscard]] inline NameStamps stamps_of_names(const std::vector<std::filesystem::path>& images) {
+  NameDates dates = dates_of_names(images);
+  if (!dates.seconds.empty()) return {std::move(dates.seconds), std::move(dates.note)};
+  if (auto numbers = name_stamps_detail::numbers_of_names(images))
+    return {std::move(numbers->seconds),
+            numbers->unit.is_seconds() ? std::string() : "names are " + unit_note(numbers->unit)};
+  return {{}, std::move(dates.note)};
 }
 
 }  // namespace sslam::io
