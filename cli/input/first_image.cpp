@@ -20,7 +20,8 @@ struct FirstImage {
   std::string name;
   cv::Size stored;  // empty: no image can be read
   ImageTurn turn = kUpright;
-  std::string why;  // of the first that cannot be read
+  bool several = false;  // its file holds more than this one
+  std::string why;       // of the first that cannot be read
 };
 
 FirstImage find_first_image(const io::Dataset& dataset, cv::Size camera) {
@@ -28,7 +29,7 @@ FirstImage find_first_image(const io::Dataset& dataset, cv::Size camera) {
   FirstImage first;
   if (dataset.layout == io::Layout::kVideo) {
     const VideoInfo info = VideoReader(dataset.root).info();
-    return {dataset.root.string(), info.size, info.turn, {}};
+    return {dataset.root.string(), info.size, info.turn, false, {}};
   }
   FrameReader reader(dataset);
   for (std::size_t i = 0; i < std::min(kTries, dataset.frames.size()); ++i) {
@@ -44,6 +45,7 @@ FirstImage find_first_image(const io::Dataset& dataset, cv::Size camera) {
         header.size = decode_image(first.name, bytes, header, cv::IMREAD_COLOR, why).size();
       first.stored = header.size;
       first.turn = header.turn;
+      first.several = header.several;
       if (!first.stored.empty()) return first;
     }
     if (first.why.empty()) first.why = why;
@@ -102,6 +104,8 @@ CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& datase
   const ImageTurn used = known ? turn_for_camera(first.stored, first.turn, size, video) : first.turn;
   const cv::Size images = turned_size(first.stored, used);
   CameraChoice choice = choose_camera(wish, dataset, images.width, images.height);
+  if (first.several)
+    print_note(first.name + ": holds several images; of a file in a folder one is taken; " + kTakeApart);
   tell_turn(first, used);
   tell_range(dataset, images);
   return choice;

@@ -70,6 +70,7 @@ cv::Mat decode_image(const fs::path& path, const std::vector<std::uint8_t>& byte
   if (!image.empty()) return image;
   why = path.string() + ": cannot decode this image";
   if (header.format == ImageFormat::kHeif) why += ": it is HEIC or AVIF; convert it to JPEG or PNG";
+  if (header.several) why += std::string(": it holds several; ") + kTakeApart;
   return image;
 }
 

@@ -30,6 +30,10 @@ namespace sslam::cli {
 [[nodiscard]] bool open_image(const std::filesystem::path& path, std::vector<std::uint8_t>& bytes,
                               ImageHeader& header, std::string& why, cv::Size expected = {});
 
+// What to do with a file that holds several images and is no video.
+inline constexpr const char* kTakeApart =
+    "`convert FILE -coalesce FOLDER/%06d.png` of ImageMagick takes them apart";
+
 // flags as cv::imread takes them; the pixels stay as they are stored. Empty, with the reason in `why`, when
 // the file is missing, truncated or no image.
 [[nodiscard]] cv::Mat load_image(const std::filesystem::path& path, int flags, std::string& why);

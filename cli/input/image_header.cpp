@@ -41,6 +41,18 @@ cv::Size size_of(std::uint32_t width, std::uint32_t height) {
   return {static_cast<int>(width), static_cast<int>(height)};
 }
 
+// Whether a page is there that is neither a preview nor a mask of another.
+bool is_page(const ByteReader& reader, std::size_t directory) {
+  constexpr std::uint32_t kPreview = 1, kMask = 4;
+  if (directory == 0 || directory + 2 > reader.size()) return false;
+  const std::uint32_t entries = reader.number(directory, 2);
+  for (std::uint32_t i = 0; i < entries && directory + 2 + 12 * (i + 1) <= reader.size(); ++i) {
+    const std::size_t at = directory + 2 + std::size_t{12} * i;
+    if (reader.number(at, 2) == 0xfe && (reader.number(at + 8, 4) & (kPreview | kMask)) != 0) return false;
+  }
+  return entries > 0;
+}
+
 // TIFF's first directory, which EXIF is made of as well.
 void read_tiff(Bytes bytes, ImageHeader& header, bool with_size) {
   const bool big = says(bytes, 0, "MM");
@@ -56,7 +68,9 @@ void read_tiff(Bytes bytes, ImageHeader& header, bool with_size) {
     if (tag == 0x101) height = value;
     if (tag == 0x112 && value >= 1 && value <= 8) header.turn = static_cast<ImageTurn>(value);
   }
-  if (with_size) header.size = size_of(width, height);
+  if (!with_size) return;
+  header.size = size_of(width, height);
+  header.several = is_page(reader, reader.number(directory + 2 + std::size_t{12} * entries, 4));
 }
 
 bool is_tiff(Bytes bytes) {
@@ -125,6 +139,7 @@ void read_png(Bytes bytes, ImageHeader& header) {
     const std::size_t length = reader.number(at, 4);
     if (says(bytes, at + 4, "eXIf") && length < bytes.size() - at - 8)
       read_tiff(bytes.subspan(at + 8, length), header, false);
+    if (says(bytes, at + 4, "acTL")) header.several = reader.number(at + 8, 4) > 1;
     if (says(bytes, at + 4, "IEND")) {
       header.complete = true;
       header.end = at + 12;
@@ -140,6 +155,8 @@ void read_webp(Bytes bytes, ImageHeader& header) {
   header.complete = bytes.size() >= end;
   if (header.complete) header.end = end;
   if (says(bytes, 12, "VP8X")) {
+    constexpr std::uint32_t kAnimation = 2;
+    header.several = (reader.number(20, 1) & kAnimation) != 0;
     header.size = size_of(reader.number(24, 3) + 1, reader.number(27, 3) + 1);
   } else if (says(bytes, 12, "VP8L")) {
     const std::uint32_t bits = reader.number(21, 4);
@@ -226,62 +243,6 @@ ImageHeader read_image_header(Bytes bytes) {
     header.format = ImageFormat::kHeif;
   }
   return header;
-}
-
-cv::Size turned_size(cv::Size stored, ImageTurn turn) {
-  return swaps_sides(turn) ? cv::Size(stored.height, stored.width) : stored;
-}
-
-cv::Mat turned_image(const cv::Mat& stored, ImageTurn turn) {
-  cv::Mat image;
-  switch (turn) {
-    case 2:
-      cv::flip(stored, image, 1);
-      break;
-    case 3:
-      cv::rotate(stored, image, cv::ROTATE_180);
-      break;
-    case 4:
-      cv::flip(stored, image, 0);
-      break;
-    case 5:
-      cv::transpose(stored, image);
-      break;
-    case 6:
-      cv::rotate(stored, image, cv::ROTATE_90_CLOCKWISE);
-      break;
-    case 7:
-      cv::transpose(stored, image);
-      cv::rotate(image, image, cv::ROTATE_180);
-      break;
-    case 8:
-      cv::rotate(stored, image, cv::ROTATE_90_COUNTERCLOCKWISE);
-      break;
-    default:
-      return stored;
-  }
-  return image;
-}
-
-const char* turn_text(ImageTurn turn) {
-  switch (turn) {
-    case 2:
-      return "mirrored left to right";
-    case 3:
-      return "turned by 180 degrees";
-    case 4:
-      return "mirrored top to bottom";
-    case 5:
-      return "mirrored and turned by 270 degrees clockwise";
-    case 6:
-      return "turned by 90 degrees clockwise";
-    case 7:
-      return "mirrored and turned by 90 degrees clockwise";
-    case 8:
-      return "turned by 270 degrees clockwise";
-    default:
-      return "upright";
-  }
 }
 
 }  // namespace sslam::cli

@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/input/open_images.hpp"
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "cli/input/bag_reader.hpp"
 #include "cli/input/image_file.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 
 namespace sslam::cli {
+namespace {
+
+// A file with the name of an image, whose content may be an animation.
+bool is_animated_png(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::vector<std::uint8_t> bytes;
+  ImageHeader header;
+  std::string why;
+  if (!io::is_image_name(path) || !std::filesystem::is_regular_file(path, ignored) ||
+      !open_image(path, bytes, header, why) || !header.several)
+    return false;
+  if (header.format == ImageFormat::kPng) return true;
+  throw Error(path.string() + ": holds several images, which are not read as a video; " + kTakeApart);
+}
+
+}  // namespace
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -21,7 +41,7 @@ std::string_view layout_name(io::Layout layout) {
 
 io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions& options,
                         const io::BagTopics& topics, std::int64_t at_most) {
-  io::Dataset dataset = io::open_dataset(path, options);
+  io::Dataset dataset = is_animated_png(path) ? io::read_video(path) : io::open_dataset(path, options);
   const bool bag = dataset.layout == io::Layout::kBag;
   if (!bag && !(topics.images.empty() && topics.depth.empty()))
     throw Error(path.string() + ": is no bag, so it has no topics; leave --topic and --depth-topic out");

@@ -96,9 +96,7 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
     if (is_video_name(path)) return read_video(path);
     if (is_bag_name(path)) return unread_bag(path);
     if (is_image_name(path))
-      throw Error(path.string() +
-                  ": is one image; a run needs many: name their folder, or a glob in quotes; make a video of "
-                  "an animated one");
+      throw Error(path.string() + ": is one image; a run needs many: name their folder, or a glob in quotes");
     throw Error(
         path.string() +
         ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap, db3)");
