@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/run/whole_run.hpp"
 
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -195,6 +197,7 @@ void WholeRun::examine_camera() {
 
 void WholeRun::follow_up() {
   RunOutcome& outcome = this->outcome();
+  const std::size_t told = outcome.warnings.size();  // to those who looked on while frames were tracked
   if (source_) note_stream(*source_, outcome);
   warn_of_useless_normals(settings_.normals, outcome);
   bring_to_metres(
@@ -202,8 +205,12 @@ void WholeRun::follow_up() {
       outcome);
   if (stream_) stream_->finish(outcome);
   if (settings_.dense) add_dense(*pass_);
-  outcome.warnings.insert(outcome.warnings.begin(), calibration_->warnings().begin(),
-                          calibration_->warnings().end());
+  const std::vector<std::string>& of_camera = calibration_->warnings();
+  if (stream_) {
+    for (const std::string& line : of_camera) stream_->warning(line);
+    for (std::size_t i = told; i < outcome.warnings.size(); ++i) stream_->warning(outcome.warnings[i]);
+  }
+  outcome.warnings.insert(outcome.warnings.begin(), of_camera.begin(), of_camera.end());
   print_warnings(outcome.warnings);
   pass_->tell_health();
 }

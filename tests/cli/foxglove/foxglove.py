@@ -109,9 +109,11 @@ def nanoseconds(stamp):
 
 def check_stream(program, packages, scratch):
     room, plain, watched = make_room(program, scratch), scratch / "plain", scratch / "watched"
-    sorted((room / "rgb").iterdir())[30].write_bytes(b"no image")  # something to warn of
-    call(program, *track(room, plain), "--quiet")
-    run = StreamedRun(program, *track(room, watched))
+    # Something to warn of, in the midst and after the last frame.
+    sorted((room / "rgb").iterdir())[30].write_bytes(b"no image")
+    scale = "--scale", "known=1@30:50"
+    call(program, *track(room, plain), *scale, "--quiet")
+    run = StreamedRun(program, *track(room, watched), *scale)
     clients = []
     for protocol in PROTOCOLS:
         client = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", "node", HERE / "client.mjs", packages, run.address, protocol],
@@ -170,8 +172,9 @@ def compare(got, protocol, room, out):
     assert len(images) > 1 and all(entry["message"]["data"] == [320, 240] for entry in images), len(images)
     stamps = [nanoseconds(entry["message"]["header"]["stamp"]) for entry in images]
     assert stamps == sorted(set(stamps)) and set(stamps) <= frames
-    (warning,) = found["/rosout"]
-    assert warning["message"]["level"] == 30 and warning["message"]["msg"] in metrics["warnings"], warning["message"]
+    logs = [entry["message"] for entry in found["/rosout"]]
+    assert all(log["level"] == 30 for log in logs) and [log["msg"] for log in logs] == metrics["warnings"], logs
+    assert len(logs) == 2 and "frame 30 has no pose" in logs[1]["msg"], logs
 
 
 def nanoseconds_of(line):
