@@ -1,7 +1,9 @@
 """A run for the viewers of other packages, read back with these packages where they are installed."""
 
 import importlib.util
+import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,7 +12,24 @@ import unittest
 import numpy as np
 
 import sslam
+from sslam import _viewers
 from room import ROOM, needs_room, run
+
+
+# Two rectangles of planes, for a run whose map has none: its walk is too short.
+CORNERS = np.array([[[0, 0, 1], [2, 0, 1], [2, 3, 1], [0, 3, 1]], [[0, 0, 1], [0, 3, 1], [0, 3, 5], [0, 0, 5]]], np.float64)
+COLOURS = np.array([[214, 69, 65], [38, 166, 91]])
+
+
+def add_planes(folder):
+    head, _, body = (folder / "map.ply").read_text().partition("end_header\n")
+    count = int(re.search(r"element vertex (\d+)", head)[1])
+    rows = body.splitlines()
+    vertices = [" ".join(map(str, (*place, *colour))) for corners, colour in zip(CORNERS, COLOURS) for place in corners]
+    faces = [" ".join(map(str, (4, *range(count + 4 * i, count + 4 * i + 4), *colour))) for i, colour in enumerate(COLOURS)]
+    head = head.replace(f"element vertex {count}", f"element vertex {count + 8}").replace("element face 0", "element face 2")
+    rows = [*rows[:count], *vertices, *rows[count:], *faces]
+    (folder / "map.ply").write_text("\n".join([head + "end_header", *rows, ""]))
 
 
 def needs(module):
@@ -24,7 +43,8 @@ class Viewers(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.folder = pathlib.Path(cls.scratch.name) / "run"
-        run("run", ROOM, "--end", 40, "--normals", "none", "--no-report", "--out", cls.folder)
+        run("run", ROOM, "--end", 40, "--normals", "depth", "--dense", "--no-report", "--out", cls.folder)
+        add_planes(cls.folder)
         cls.map = sslam.load_map(cls.folder / "map.sslam")
         cls.trajectory = sslam.read_trajectory(cls.folder)
 
@@ -50,6 +70,19 @@ class Viewers(unittest.TestCase):
         self.assertGreater(len(set(colours)), len(points) / 4)
         (lines,) = numbers("/world/lines", "LineStrips3D:strips")
         np.testing.assert_allclose(lines, self.map.lines().ends, atol=1e-5)
+        (corners,) = numbers("/world/planes", "Mesh3D:vertex_positions")
+        (triangles,) = numbers("/world/planes", "Mesh3D:triangle_indices")
+        np.testing.assert_allclose(corners.reshape(-1, 4, 3), CORNERS)
+        (plane_colours,) = rows["/world/planes", "Mesh3D:vertex_colors"]
+        seen = [[value >> 24, value >> 16 & 255, value >> 8 & 255] for value in plane_colours.as_py()]
+        np.testing.assert_array_equal(seen, np.repeat(COLOURS, 4, axis=0))
+        a, b, c = np.moveaxis(corners[triangles.astype(int)], 1, 0)
+        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1).reshape(-1, 2).sum(axis=1) / 2
+        np.testing.assert_allclose(areas, [6, 12])  # both halves of each
+        ((opacity,),) = numbers("/world/planes", "Mesh3D:albedo_factor")
+        self.assertEqual(int(opacity) & 255, 70)
+        ((model,),) = (row.as_py() for row in rows["/world/model", "Asset3D:blob"])
+        self.assertEqual(bytes(model), _viewers._model_in_map(self.folder / "model.glb"))
         (path_seen,) = numbers("/world/path", "LineStrips3D:strips")
         np.testing.assert_allclose(path_seen[0], self.trajectory.positions, atol=1e-5)
         places = np.stack(numbers("/world/camera", "Transform3D:translation")).reshape(-1, 3)
@@ -61,6 +94,31 @@ class Viewers(unittest.TestCase):
         images = rows["/world/camera/image", "EncodedImage:blob"]
         self.assertEqual(len(images), 40)
         self.assertTrue(bytes(images[0].as_py()[0]).startswith(b"\xff\xd8"))
+
+    def test_the_model_is_turned_back_into_the_map(self):
+        def parts(glb):
+            self.assertEqual((glb[:4], int.from_bytes(glb[8:12], "little"), len(glb) % 4), (b"glTF", len(glb), 0))
+            end = 20 + int.from_bytes(glb[12:16], "little")
+            return json.loads(glb[20:end]), glb[end:]
+
+        written, bytes_written = parts((self.folder / "model.glb").read_bytes())
+        turned_back, bytes_sent = parts(_viewers._model_in_map(self.folder / "model.glb"))
+        self.assertEqual(bytes_sent, bytes_written)
+        self.assertIn("rotation", written["nodes"][0])
+        del written["nodes"][0]["rotation"]
+        self.assertEqual(turned_back, written)
+        # Its vertices are around the map's points.
+        box = [np.array(written["accessors"][0][side]) for side in ("min", "max")]
+        points = self.map.points()
+        inside = ((box[0] - 0.5 < points) & (points < box[1] + 0.5)).all(axis=1)
+        self.assertGreater(inside.mean(), 0.9)
+
+    def test_a_model_that_is_none_is_refused_by_its_name(self):
+        path = pathlib.Path(self.scratch.name) / "model.glb"
+        for content in (b"", b"glTF", b"glTF" + bytes(12) + b"JSON", b"glTF" + bytes(8) + b"\4\0\0\0JSON[[]]"):
+            path.write_bytes(content)
+            with self.assertRaisesRegex(sslam.Error, "model.glb: is no model.glb of"):
+                _viewers._model_in_map(path)
 
     @needs("open3d")
     def test_geometries_of_open3d_hold_the_run(self):

@@ -37,10 +37,13 @@ class _Cloud(NamedTuple):
     point_colours: NDArray[np.uint8]
     ends: Floats
     line_colours: NDArray[np.uint8]
+    corners: Floats
+    """of planes, four each, in order around them"""
+    plane_colours: NDArray[np.uint8]
 
 
 def _read_cloud(path: pathlib.Path) -> _Cloud:
-    """Points stand first, then two ends for each line, in the order that the file's own comment tells."""
+    """Points stand first, then two ends of each line and four corners of each plane, as the file's own comment tells."""
     try:
         text = path.read_text(encoding="ascii")
         head, _, body = text.partition("end_header\n")
@@ -51,11 +54,39 @@ def _read_cloud(path: pathlib.Path) -> _Cloud:
         raise Error(f"{path}: cannot open: {error.strerror}") from None
     except (ValueError, KeyError, IndexError):
         raise Error(f"{path}: is no map.ply of `sslam run`") from None
-    lines = count.get("edge", 0)
-    points = len(vertices) - 2 * lines - 4 * count.get("face", 0)
+    lines, planes = count.get("edge", 0), count.get("face", 0)
+    points = len(vertices) - 2 * lines - 4 * planes
     places, colours = vertices[:, :3], vertices[:, 3:].astype(np.uint8)
-    of_lines = slice(points, points + 2 * lines)
-    return _Cloud(places[:points], colours[:points], places[of_lines].reshape(-1, 2, 3), colours[of_lines][::2])
+    of_lines, of_planes = slice(points, points + 2 * lines), slice(points + 2 * lines, None)
+    return _Cloud(
+        places[:points],
+        colours[:points],
+        places[of_lines].reshape(-1, 2, 3),
+        colours[of_lines][::2],
+        places[of_planes].reshape(-1, 4, 3),
+        colours[of_planes][::4],
+    )
+
+
+def _model_in_map(path: pathlib.Path) -> bytes:
+    """A model.glb of `sslam run --dense`, without the turn of its node that makes y point up: in the map's coordinates."""
+    try:
+        glb = path.read_bytes()
+        if glb[:4] != b"glTF" or glb[16:20] != b"JSON":
+            raise ValueError
+        end = 20 + int.from_bytes(glb[12:16], "little")
+        scene = json.loads(glb[20:end])
+        for node in scene["nodes"]:
+            node.pop("rotation", None)
+        text = json.dumps(scene, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+    except OSError as error:
+        raise Error(f"{path}: cannot open: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise Error(f"{path}: is no model.glb of `sslam run --dense`") from None
+    rest = glb[end:]
+    sizes = (number.to_bytes(4, "little") for number in (20 + len(text) + len(rest), len(text)))
+    return glb[:8] + next(sizes) + next(sizes) + b"JSON" + text + rest
 
 
 class _Run:
@@ -101,8 +132,10 @@ def to_rerun(run: Path, out: Path, *, images: bool = True) -> None:
     out: the file, *.rrd. An older one is overwritten.
     images: as JPEG, from the run's dataset where that is still there; else a warning.
 
-    world/points and world/lines have the colours that were seen, world/path is the camera's path, world/camera its pose
-    by time, world/camera/image the camera and its images, inliers the features that agree with each frame's pose.
+    world/points and world/lines have the colours that were seen, world/planes are the map's planes, which one sees
+    through, world/model is the textured model of `--dense` where the run has one. world/path is the camera's path,
+    world/camera its pose by time, world/camera/image the camera and its images, inliers the features that agree with
+    each frame's pose.
     Raises sslam.Error for a folder that is no run's, and ImportError without the package.
     """
     source = _Run(run)
@@ -111,12 +144,25 @@ def to_rerun(run: Path, out: Path, *, images: bool = True) -> None:
     if not target.parent.is_dir():
         raise Error(f"out: {target.parent} is no folder")
     settings = source.metrics().get("settings", {})
+    glb = source.folder / "model.glb"
+    model = _model_in_map(glb) if glb.is_file() else None
     rec = rr.RecordingStream("sslam")
     rec.save(target)
     rec.log("world", rr.ViewCoordinates.RDF, static=True)
     cloud = source.cloud
     rec.log("world/points", rr.Points3D(cloud.points, colors=cloud.point_colours), static=True)
     rec.log("world/lines", rr.LineStrips3D(cloud.ends, colors=cloud.line_colours), static=True)
+    if len(cloud.corners):
+        faces = np.arange(4 * len(cloud.corners), dtype=np.uint32).reshape(-1, 4)
+        planes = rr.Mesh3D(
+            vertex_positions=cloud.corners.reshape(-1, 3),
+            triangle_indices=faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3),
+            vertex_colors=np.repeat(cloud.plane_colours, 4, axis=0),
+            albedo_factor=[255, 255, 255, 70],
+        )
+        rec.log("world/planes", planes, static=True)
+    if model is not None:
+        rec.log("world/model", rr.Asset3D(contents=model, media_type="model/gltf-binary"), static=True)
     rec.log("world/path", rr.LineStrips3D([source.trajectory.positions]), static=True)
     if "pinhole" in settings and "image_size" in settings:
         fx, fy, cx, cy = settings["pinhole"]
