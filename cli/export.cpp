@@ -11,6 +11,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/results/dense_walls.hpp"
+#include "cli/results/depth_export.hpp"
+#include "cli/results/export_warnings.hpp"
 #include "cli/results/floor_plan.hpp"
 #include "cli/results/folder_lock.hpp"
 #include "cli/results/keyframe_images.hpp"
@@ -39,11 +41,13 @@ struct ExportSettings {
   bool images = false;  // write the keyframes' images too, without the bend of the lens
 };
 
-// What is wrong with `file`, where anything is; else that the run has tracked nothing.
-[[noreturn]] void refuse(const ExportSettings& settings, const RunFolder& run, const std::string& file) {
+// What is wrong with `file`, where anything is; else why it is not there.
+[[noreturn]] void refuse(
+    const ExportSettings& settings, const RunFolder& run, const std::string& file,
+    const std::string& why = ": the run tracked no frame, so there is nothing to export") {
   for (const std::string& problem : run.problems)
     if (problem.find(file) != std::string::npos) throw Error(problem);
-  throw Error(settings.run + ": the run tracked no frame, so there is nothing to export");
+  throw Error(settings.run + why);
 }
 
 std::string export_trajectory(const ExportSettings& settings, const RunFolder& run, const fs::path& out) {
@@ -82,21 +86,9 @@ std::vector<io::Colour> point_colours(const RunFolder& run) {
   return colours;
 }
 
-// The run's camera is that of the undistorted images, and the files are those of the lens.
-void warn_of_wide_lens(const RunFolder& run) {
-  const auto settings = run.metrics.find("settings");
-  if (settings == run.metrics.end() || !settings->is_object()) return;
-  const auto degrees = settings->find("undistorted_to_degrees");
-  if (degrees == settings->end() || !degrees->is_number()) return;
-  print_warning(
-      "the run's images are of a wide lens, and the exported camera is that of a pinhole's view of " +
-      std::to_string(std::lround(degrees->get<double>())) +
-      " degrees across: undistort the images to it before they are used");
-}
-
 // Whether files of the format name the keyframes' images.
 bool names_images(const std::string& format) {
-  return format == "colmap" || format == "nerfstudio";
+  return format == "colmap" || format == "depth" || format == "nerfstudio";
 }
 
 // ", 17 images" where they were asked for.
@@ -124,10 +116,7 @@ std::string export_colmap(const ExportSettings& settings, const RunFolder& run, 
 std::string export_nerfstudio(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
                               const fs::path& out) {
   const NerfstudioCounts counts = write_nerfstudio(run, stage, out, settings.images);
-  if (counts.strangers > 0)
-    print_warning(std::to_string(counts.strangers) +
-                  " keyframes are in no row of frames.csv (an earlier run's?): left out, since their images "
-                  "are not known");
+  warn_of_strangers(counts.strangers);
   if (counts.missing > 0)
     print_note(
         "put " + std::to_string(counts.missing) + " images into " + (out / kStraightFolder).string() +
@@ -135,6 +124,22 @@ std::string export_nerfstudio(const ExportSettings& settings, const RunFolder& r
         "bag, or no longer there");
   return "transforms.json (" + std::to_string(counts.images) + " keyframes), points.ply (" +
          std::to_string(counts.points) + " points)" + export_images(settings, run, stage);
+}
+
+std::string export_depth(const ExportSettings& settings, const RunFolder& run, const fs::path& stage,
+                         const fs::path& out) {
+  const DepthCounts counts = write_depth_export(run, stage, out, settings.images);
+  warn_of_strangers(counts.strangers);
+  if (counts.too_far > 0)
+    print_warning(std::to_string(counts.too_far) + " of " + std::to_string(counts.pixels) +
+                  " pixels are farther than the 13.1 " + (is_metric(run.metrics) ? "m" : "units of the map") +
+                  " that 16 bits hold: no depth there");
+  if (counts.missing > 0)
+    print_note(
+        std::to_string(counts.missing) +
+        " images are in no row of rgb.txt: the run's dataset is a video or a bag, of which --images writes "
+        "them, or no longer there");
+  return counts.text() + export_images(settings, run, stage);
 }
 
 // The model of --dense as it is, else the sparse map.
@@ -169,6 +174,7 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
                        const fs::path& out) {
   if (names_images(settings.format) && !settings.images) warn_of_wide_lens(run);
   if (settings.format == "colmap") return export_colmap(settings, run, stage);
+  if (settings.format == "depth") return export_depth(settings, run, stage, out);
   if (settings.format == "nerfstudio") return export_nerfstudio(settings, run, stage, out);
   if (settings.format == "glb") return export_glb(settings, run, stage);
   if (settings.format == "floorplan") return export_floor_plan(settings, run, stage);
@@ -183,7 +189,7 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
 
 void run_export(const ExportSettings& settings) {
   if (settings.images && !names_images(settings.format))
-    throw UsageError("--images: goes with --format colmap or nerfstudio, found " + settings.format);
+    throw UsageError("--images: goes with --format colmap, depth or nerfstudio, found " + settings.format);
   const RunFolder run = read_run_folder(settings.run);
   const fs::path out =
       settings.out.empty() ? fs::path(settings.run) / settings.format : fs::path(settings.out);
@@ -191,6 +197,11 @@ void run_export(const ExportSettings& settings) {
   if (map ? run.map.empty() : run.trajectory.empty())
     refuse(settings, run, map ? "map.sslam" : "trajectory.txt");
   if (settings.format == "mcap" && run.trajectory.empty()) refuse(settings, run, "trajectory.txt");
+  if (settings.format == "depth") {
+    if (run.surfaces.empty())
+      refuse(settings, run, kModelFile, ": has no model to take depth from: run again with --dense");
+    claim_depth_folder(out);
+  }
   print_warnings(run.problems);
   io::prepare_output_folder(out);
   const FolderLock lock = FolderLock::demand(out);
@@ -212,17 +223,19 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("--format", s->format,
                    "tum, kitti: the trajectory; ply: points and lines; colmap: a model of the keyframes "
-                   "with their points; nerfstudio: transforms.json and points; glb: a 3D model for viewers; "
+                   "with their points; nerfstudio: transforms.json and points; depth: depth and normals of "
+                   "the keyframes by the model of --dense; glb: a 3D model for viewers; "
                    "floorplan: walls and the path from above; mcap: all of it as a recording of ROS 2, "
                    "for Foxglove and RViz")
       ->required()
-      ->check(CLI::IsMember({"colmap", "floorplan", "glb", "kitti", "mcap", "nerfstudio", "ply", "tum"}));
+      ->check(CLI::IsMember(
+          {"colmap", "depth", "floorplan", "glb", "kitti", "mcap", "nerfstudio", "ply", "tum"}));
   command
       ->add_option("-o,--out", s->out, "Folder for the files; default one of the format's name in the run's")
       ->type_name("DIR");
   command->add_flag(
       "--images", s->images,
-      "Of colmap and nerfstudio: write the keyframes' images as well, undistorted, into images");
+      "Of colmap, depth and nerfstudio: write the keyframes' images as well, undistorted, into images");
   command->callback([s] { run_export(*s); });
 }
 

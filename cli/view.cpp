@@ -9,7 +9,9 @@
 #include "cli/commands.hpp"
 #include "cli/report.hpp"
 #include "cli/report/report_data.hpp"
+#include "cli/results/json_file.hpp"
 #include "cli/results/map_figures.hpp"
+#include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/messages.hpp"
@@ -21,12 +23,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of the model that `sslam run --dense` has written beside the map; none where there is no such file, and
+// with a warning where it is damaged or of another run.
+TexturedMesh surfaces_beside(const fs::path& map) {
+  const fs::path folder = map.parent_path(), model = folder / kModelFile;
+  std::error_code ignored;
+  if (map.filename() != "map.sslam" || !fs::is_regular_file(model, ignored)) return {};
+  try {
+    const auto checksums = read_json_object(folder / "metrics.json").value("files", nlohmann::ordered_json());
+    if (checksums.contains(kModelFile))
+      print_warnings(foreign_files(folder, {{kModelFile, checksums[kModelFile]}}));
+  } catch (const Error&) {  // a map and its model may stand alone
+  }
+  try {
+    return read_glb(model);
+  } catch (const Error& problem) {
+    print_warning(std::string(problem.what()) + ": no surfaces are shown");
+    return {};
+  }
+}
+
 // The page of a run of which there is the map alone.
 std::string map_page(const fs::path& file) {
   RunFolder run;
   run.name = file.filename().string();
   run.map = load_run_map(file);
   run.colours = load_map_colours(file, run.map);
+  run.surfaces = surfaces_beside(file);
   run.keyframes = keyframe_poses(run.map);
   run.metrics = {{"keyframes", run.keyframes.size()},
                  {"points", count_alive(run.map.points)},

@@ -5,13 +5,11 @@
 
 #include <array>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include "cli/input/open_images.hpp"
+#include "cli/results/image_paths.hpp"
 #include "cli/results/keyframe_images.hpp"
 #include "cli/results/run_camera.hpp"
 #include "cli/results/run_folder.hpp"
@@ -31,20 +29,6 @@ struct NerfstudioCounts {
 namespace nerfstudio_detail {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
-
-// The files of the run's images by their names; empty where the dataset has gone, or is a video or a bag.
-inline std::map<std::string, fs::path> image_files(const std::string& dataset) {
-  std::map<std::string, fs::path> files;
-  try {
-    const io::Dataset found = dataset_at(dataset);
-    if (found.frames.empty()) return files;
-    for (const io::FrameEntry& frame : found.frames)
-      files[fs::path(frame.image).filename().string()] = frame.image;
-  } catch (const Error&) {  // the poses are of use without the images
-  }
-  return files;
-}
 
 inline Vec3<double> z_up(const Vec3<double>& x) {
   return {x.x(), x.z(), -x.y()};
@@ -88,13 +72,8 @@ inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesy
   NerfstudioCounts counts;
   Camera<double> camera = camera_of(run);
   const KeyframeImages images = keyframe_images(run);
-  std::map<std::string, std::filesystem::path> files;
-  if (straight) {
-    camera.distortion = {};
-    for (const std::string& name : images.names) files[name] = out / kStraightFolder / name;
-  } else {
-    files = detail::image_files(run.metrics.at("settings").value("dataset", std::string()));
-  }
+  if (straight) camera.distortion = {};
+  const ImagePaths paths(run, out, straight);
   detail::Json json = detail::json_of(camera);
   json["frames"] = detail::Json::array();
   for (const auto& keyframe : run.map.keyframes) {
@@ -104,19 +83,14 @@ inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesy
       ++counts.strangers;
       continue;
     }
-    const auto file = files.find(images.names[id]);
     ++counts.images;
-    std::error_code error;
-    std::filesystem::path path;
-    if (file != files.end())
-      path = std::filesystem::relative(std::filesystem::absolute(file->second),
-                                       std::filesystem::absolute(out), error);
+    std::string path = paths.of(images.names[id]);
     if (path.empty()) {
-      path = std::filesystem::path(kStraightFolder) / images.names[id];
+      path = (std::filesystem::path(kStraightFolder) / images.names[id]).generic_string();
       ++counts.missing;
     }
-    json["frames"].push_back({{"file_path", path.generic_string()},
-                              {"transform_matrix", detail::matrix_of(keyframe.cam_from_world.inverse())}});
+    json["frames"].push_back(
+        {{"file_path", path}, {"transform_matrix", detail::matrix_of(keyframe.cam_from_world.inverse())}});
   }
   io::write_text(stage / "transforms.json", json.dump(1) + "\n");
   std::vector<io::MapPoint> points;

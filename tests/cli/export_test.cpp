@@ -239,7 +239,7 @@ TEST_CASE(
     CHECK(cv::norm(straight, wanted, cv::NORM_L1) < 0.5 * cv::norm(through_lens, wanted, cv::NORM_L1));
   }
   require_misused(export_run(run, "--images --format ply"),
-                  "--images: goes with --format colmap or nerfstudio");
+                  "--images: goes with --format colmap, depth or nerfstudio");
   fs::remove_all(bent);
   require_refused(export_run(run, "--images --format colmap --out " + (out / "gone").string()),
                   bent.string());
@@ -402,9 +402,12 @@ TEST_CASE("export refuses what it cannot use with one line") {
                   "nowhere: no such folder; expected the one that");
   require_refused(export_run(copy.folder, "--format tum"), "holds no run that can be read");
   REQUIRE(copy.run("--end 2").code == 1);
-  for (const char* format : {"tum", "kitti", "ply", "colmap", "nerfstudio"})
+  for (const char* format : {"tum", "kitti", "ply", "colmap", "nerfstudio", "depth"})
     require_refused(export_run(copy.out, std::string("--format ") + format), "out: the run tracked no frame");
   REQUIRE(copy.run().code == 0);
+  require_refused(export_run(copy.out, "--format depth"),
+                  "out: has no model to take depth from: run again with --dense");
+  REQUIRE_FALSE(fs::exists(copy.out / "depth"));
   write(scratch / "file", "not a folder");
   require_refused(export_run(copy.out, "--format kitti --out " + (scratch / "file").string()),
                   "file: cannot make this folder");
@@ -414,7 +417,7 @@ TEST_CASE("export refuses what it cannot use with one line") {
   require_refused(export_run(copy.out, "--format kitti"), "trajectory.txt: is missing");
   const Outcome unknown = export_run(copy.out, "--format bundler");
   REQUIRE(unknown.code == 2);
-  const std::string names = "{colmap,floorplan,glb,kitti,mcap,nerfstudio,ply,tum}";
+  const std::string names = "{colmap,depth,floorplan,glb,kitti,mcap,nerfstudio,ply,tum}";
   REQUIRE(unknown.text.find("sslam: error: --format: bundler not in " + names) == 0);
 }
 

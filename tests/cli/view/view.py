@@ -8,6 +8,7 @@ import contextlib
 import csv
 import json
 import pathlib
+import shutil
 import signal
 import socket
 import subprocess
@@ -45,7 +46,7 @@ def refused(program, *arguments, words, code=1):
 
 def check_saved(program, scratch):
     room, run = make_room(program, scratch), scratch / "run"
-    call(program, *track(room, run), "--quiet")
+    call(program, *track(room, run), "--dense", "--quiet")
     view = View(program, run)
     status, head, page = view.ask()
     assert status == 200 and "text/html" in head and "no-store" in head, head
@@ -60,7 +61,22 @@ def check_saved(program, scratch):
     data, figures = view.data(), json.loads((run / "metrics.json").read_text())
     assert data["kind"] == "map" and data["folder"] == "map.sslam"
     assert data["metrics"] == {name: figures[name] for name in ("keyframes", "points", "lines", "planes")}, data["metrics"]
-    assert view.end(signal.SIGTERM)[0] == 0
+    surfaces = data["surfaces"]
+    assert len(surfaces["jpeg"]) > 1000, surfaces.keys()
+    assert view.end(signal.SIGTERM) == (0, "", "")
+    # A map and its model alone; then a model that has lost its end.
+    alone = scratch / "alone"
+    alone.mkdir()
+    for name in ("map.sslam", "model.glb"):
+        shutil.copy(run / name, alone)
+    view = View(program, alone / "map.sslam")
+    assert view.data()["surfaces"] == surfaces
+    assert view.end() == (0, "", "")
+    (alone / "model.glb").write_bytes((run / "model.glb").read_bytes()[:5000])
+    view = View(program, alone / "map.sslam")
+    assert "surfaces" not in view.data()
+    code, _, err = view.end()
+    assert code == 0 and err.count("\n") == 1 and "model.glb: ends too early: no surfaces are shown" in err, err
 
     # Half of it is gone.
     (run / "map.sslam").unlink()
