@@ -78,6 +78,24 @@ double length_of(const io::Trajectory& trajectory) {
   return length;
 }
 
+// Throws where what was asked of the house goes together in none.
+void check_house(const synth::HouseOptions& house) {
+  const bool plain = house.world == synth::World::kManhattan || house.world == synth::World::kTurned;
+  if (house.rooms > 1 && !(plain && house.path == synth::PathKind::kLoop)) {
+    throw Error(
+        "several rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
+  }
+  if (house.off_square > 0.0 && (house.rooms > 1 || house.world != synth::World::kManhattan)) {
+    throw Error(
+        "--off-square turns the walls of one Manhattan room: it needs --rooms 1 and --world manhattan");
+  }
+  if ((house.doors_ajar || house.clutter > 0) && house.rooms != 1 && house.rooms != 3) {
+    throw Error(
+        "a floor of many rooms has no clutter and its doors are closed: --doors-ajar and --clutter need "
+        "--rooms 1 or 3");
+  }
+}
+
 void run_synth(const SynthSettings& settings) {
   const SynthReport report = synthesise(settings);
   std::printf("%s: %d frames, %.1f m, house built in %.1f s, %.1f frames/s\n", settings.folder.c_str(),
@@ -90,12 +108,7 @@ void run_synth(const SynthSettings& settings) {
 
 SynthReport synthesise(const SynthSettings& asked) {
   SynthSettings settings = asked;  // and its folder is the one beside, until all is written
-  const bool plain =
-      settings.house.world == synth::World::kManhattan || settings.house.world == synth::World::kTurned;
-  if (settings.house.rooms > 1 && !(plain && settings.house.path == synth::PathKind::kLoop)) {
-    throw Error(
-        "several rooms have Manhattan walls and a tour: --world oblique or free, and --path, need --rooms 1");
-  }
+  check_house(settings.house);
   if (settings.read_out * settings.rate > 1.0 + 1e-9) {
     char text[128];
     std::snprintf(text, sizeof text,
@@ -137,7 +150,7 @@ SynthReport synthesise(const SynthSettings& asked) {
     truth.push_back({stamp, house.path.world_from_cam(stamp)});
   }
   if (complete > 0) {
-    write_synth_lists(settings, camera, truth);
+    write_synth_lists(settings, camera, house.outline, truth);
     results.commit(kSynthParts);
   }
   report.render_seconds = seconds_since(rendering);

@@ -42,11 +42,41 @@ void draw_bar(cv::Mat& bgr) {
   }
 }
 
+// Adds a Gaussian spot, the same to all channels.
+void draw_spot(const cv::Point2d& at, double sigma, double grey, cv::Mat& bgr) {
+  const int reach = static_cast<int>(std::ceil(4.0 * sigma));
+  const int column = static_cast<int>(std::lround(at.x)), row = static_cast<int>(std::lround(at.y));
+  const cv::Rect around(column - reach, row - reach, 2 * reach + 1, 2 * reach + 1);
+  const cv::Rect inside = around & cv::Rect(0, 0, bgr.cols, bgr.rows);
+  for (int y = inside.y; y < inside.y + inside.height; ++y) {
+    for (int x = inside.x; x < inside.x + inside.width; ++x) {
+      const double far = std::hypot(x - at.x, y - at.y) / sigma, light = grey * std::exp(-0.5 * far * far);
+      cv::Vec3b& pixel = bgr.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c) pixel[c] = cv::saturate_cast<std::uint8_t>(pixel[c] + light);
+    }
+  }
+}
+
+// One in each cell of a grid, anywhere in it.
+void draw_dots(std::uint64_t seed, cv::Mat& bgr) {
+  constexpr int kColumns = 20, kRows = 15;
+  const double scale = bgr.rows / 480.0;
+  Random random(seed ^ 0xD1B54A32D192ED03ULL);
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const double across = random.uniform(0.0, 1.0), down = random.uniform(0.0, 1.0);
+    const double sigma = std::max(0.6, scale * random.uniform(0.9, 1.3)), grey = random.uniform(60.0, 160.0);
+    draw_spot(
+        {(i % kColumns + across) * bgr.cols / kColumns - 0.5, (i / kColumns + down) * bgr.rows / kRows - 0.5},
+        sigma, grey, bgr);
+  }
+}
+
 }  // namespace
 
-void draw_image_fixed(ImageFixed kind, double seconds, cv::Mat& bgr) {
+void draw_image_fixed(ImageFixed kind, std::uint64_t seed, double seconds, cv::Mat& bgr) {
   if (kind == ImageFixed::kText) draw_text(seconds, bgr);
   if (kind == ImageFixed::kBar) draw_bar(bgr);
+  if (kind == ImageFixed::kDots) draw_dots(seed, bgr);
 }
 
 }  // namespace sslam::cli

@@ -34,12 +34,21 @@ void write_camera(const SynthSettings& settings, const Camera<double>& camera) {
   if (!camera_error_text(settings.camera_error).empty()) write("camera_true.yaml", camera);
 }
 
-void write_manifest(const SynthSettings& s, std::size_t frames) {
+// [[x, y], ...] as TOML has it.
+std::string outline_text(const synth::Outline& outline) {
+  std::string text;
+  for (const Vec2<double>& corner : outline)
+    text += cv::format("%s[%.6f, %.6f]", text.empty() ? "" : ", ", corner.x(), corner.y());
+  return "[" + text + "]";
+}
+
+void write_manifest(const SynthSettings& s, const synth::Outline& outline, std::size_t frames) {
   std::string text =
       "# Made by `sslam synth`. Depth: 16 bits, 5000 a metre, 0 where nothing or beyond 13.1 m.\n"
       "# Normals: 8 bits, (x, y, z) = 2 v / 255 - 1 for red, green, blue; camera frame (x right, y down, z "
       "forward),\n"
-      "# towards the camera; (0, 0, 0) where nothing is seen. Ground truth: world with z up, metres.\n";
+      "# towards the camera; (0, 0, 0) where nothing is seen. Ground truth: world with z up, metres.\n"
+      "# outline: x and y of the corners between the walls of a single room, counterclockwise from above.\n";
   text += cv::format("frames = %zu\nseed = %llu\n", frames, static_cast<unsigned long long>(s.house.seed));
   text += "texture = \"" + name_of(kRichnessNames, s.house.richness) + "\"\n";
   text += "world = \"" + name_of(kWorldNames, s.house.world) + "\"\n";
@@ -47,6 +56,9 @@ void write_manifest(const SynthSettings& s, std::size_t frames) {
   const synth::PathOptions& motion = s.house.motion;
   text += cv::format("rooms = %d\nspeed = %g\ntremor = %g\nshake = %g\nstand = %g\n", s.house.rooms,
                      motion.speed, motion.tremor, motion.shake, motion.stand);
+  text += cv::format("off-square = %g\ndoors-ajar = %s\nclutter = %d\n", s.house.off_square,
+                     s.house.doors_ajar ? "true" : "false", s.house.clutter);
+  if (!outline.empty()) text += "outline = " + outline_text(outline) + "\n";
   text += cv::format("fps = %g\nsize = \"%dx%d\"\nfocal = %g\n", s.rate, s.width, s.height, s.focal);
   text += cv::format("noise = %g\nvignetting = %g\nblur = %g\nexposure = %g\n", s.sensor.noise,
                      s.sensor.vignetting, s.blur, s.sensor.exposure_swing);
@@ -87,7 +99,7 @@ void FrameWriter::write(int number, const synth::RenderedFrame& frame, const std
   const cv::Mat colour(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(colour, bgr, cv::COLOR_RGB2BGR);
-  draw_image_fixed(settings_.image_fixed, number / settings_.rate, bgr);
+  draw_image_fixed(settings_.image_fixed, settings_.house.seed, number / settings_.rate, bgr);
   const bool png = settings_.image_format == "png";
   write_image(fs::path(settings_.folder) / numbered("rgb", number, settings_.image_format), bgr,
               png ? fast_png() : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, settings_.jpeg_quality});
@@ -117,7 +129,7 @@ void FrameWriter::write_normals(const std::string& name, const synth::RenderedFr
 }
 
 void write_synth_lists(const SynthSettings& settings, const Camera<double>& camera,
-                       const io::Trajectory& truth) {
+                       const synth::Outline& outline, const io::Trajectory& truth) {
   const fs::path folder = settings.folder;
   const auto list = [&](const char* name, const std::string& extension) {
     std::string text = "# timestamp filename\n";
@@ -126,7 +138,7 @@ void write_synth_lists(const SynthSettings& settings, const Camera<double>& came
     io::write_text(folder / (std::string(name) + ".txt"), text);
   };
   write_camera(settings, camera);
-  write_manifest(settings, truth.size());
+  write_manifest(settings, outline, truth.size());
   io::write_trajectory(folder / "groundtruth.txt", truth);
   if (settings.depth) list("depth", "png");
   if (settings.normals) list("normals", "png");

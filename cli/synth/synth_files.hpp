@@ -10,6 +10,7 @@
 #include "cli/synth.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
+#include "sslam/synth/outline.hpp"
 #include "sslam/synth/rendered_frame.hpp"
 
 namespace sslam::cli {
@@ -44,6 +45,6 @@ class FrameWriter {
 // rgb.txt, depth.txt, normals.txt, groundtruth.txt, camera.yaml and synth.toml for the first truth.size()
 // frames; camera_true.yaml where camera.yaml is to be wrong.
 void write_synth_lists(const SynthSettings& settings, const Camera<double>& camera,
-                       const io::Trajectory& truth);
+                       const synth::Outline& outline, const io::Trajectory& truth);
 
 }  // namespace sslam::cli

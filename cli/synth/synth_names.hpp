@@ -20,8 +20,10 @@ inline const std::map<std::string, synth::World> kWorldNames{{"manhattan", synth
 inline const std::map<std::string, synth::PathKind> kPathNames{
     {"loop", synth::PathKind::kLoop}, {"sweep", synth::PathKind::kSweep}, {"pivot", synth::PathKind::kPivot}};
 
-inline const std::map<std::string, ImageFixed> kImageFixedNames{
-    {"none", ImageFixed::kNone}, {"text", ImageFixed::kText}, {"bar", ImageFixed::kBar}};
+inline const std::map<std::string, ImageFixed> kImageFixedNames{{"none", ImageFixed::kNone},
+                                                                {"text", ImageFixed::kText},
+                                                                {"bar", ImageFixed::kBar},
+                                                                {"dots", ImageFixed::kDots}};
 
 template <class Value>
 [[nodiscard]] std::string name_of(const std::map<std::string, Value>& names, Value value) {

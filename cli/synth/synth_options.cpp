@@ -49,6 +49,19 @@ void add_scene_options(CLI::App& synth, SynthSettings& s) {
       "between walls); the last two for a single room; default manhattan");
   synth.add_option("--rooms", s.house.rooms, "1 to 50, several of them along corridors; default 1")
       ->check(CLI::Range(1, synth::kMostRooms).description(""));
+  synth
+      .add_option(
+          "--off-square", s.house.off_square,
+          "standard deviation in degrees by which each wall and piece of furniture is off square; for "
+          "a single manhattan room; default 0")
+      ->check(between(0.0, synth::kMostOffSquare));
+  synth.add_flag("--doors-ajar", s.house.doors_ajar,
+                 "doors stand open by 5 to 70 degrees; for one room or three");
+  synth
+      .add_option("--clutter", s.house.clutter,
+                  "how many small things lie on the floor along walls and on tables, 0 to 200; for one room "
+                  "or three; default 0")
+      ->check(CLI::Range(0, synth::kMostClutter).description(""));
   add_choice(synth, "--path", s.house.path, kPathNames,
              "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); several rooms "
              "are always toured; default loop");
@@ -125,8 +138,8 @@ void add_lens_options(CLI::App& synth, SynthSettings& s) {
       });
   add_choice(
       synth, "--image-fixed", s.image_fixed, kImageFixedNames,
-      "what is fixed to the image: text (burnt in), bar (a part of the vehicle along the lower edge) or "
-      "none; default none");
+      "what is fixed to the image: text (burnt in), bar (a part of the vehicle along the lower edge), dots "
+      "(of an infrared projector) or none; default none");
 }
 
 void add_file_options(CLI::App& synth, SynthSettings& s) {

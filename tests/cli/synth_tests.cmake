@@ -31,6 +31,13 @@ sslam_synth_refuses(--camera-error zoom=2 "'zoom=2' is not an error of a camera;
 sslam_synth_refuses(--camera-error focal=-1 "needs a number between -0.9 and 0.9")
 sslam_synth_refuses(--camera-like toaster "'toaster' is not one of industrial, kinect, phone, webcam")
 sslam_synth_refuses(--jpeg-quality 101 "not in range")
+sslam_synth_refuses(--off-square -1 "expected a number between 0 and 8, found '-1'")
+sslam_synth_refuses(--off-square nan "expected a number between 0 and 8, found 'nan'")
+sslam_synth_refuses(--off-square 8.1 "between 0 and 8")
+sslam_synth_refuses(--clutter -1 "-1 not in range")
+sslam_synth_refuses(--clutter 201 "not in range")
+sslam_synth_refuses(--clutter nan "nan")
+sslam_synth_refuses(--image-fixed spots "'spots' is not one of bar, dots, none, text")
 sslam_cli_test(NAME "synth of a quality without JPEG" ARGS synth ${folder}/refused --camera-like industrial --jpeg-quality 80 CODE 2
                ERR "^sslam: error: --jpeg-quality: needs --image-format jpg.*\n$")
 sslam_cli_test(NAME "synth through a lens that turns back" ARGS synth ${folder}/refused --lens -0.9,0 CODE 1
@@ -46,3 +53,11 @@ sslam_cli_test(NAME "synth over another data set" ARGS synth ${folder}/foreign -
                ERR "^sslam: error: .*foreign: holds a data set that sslam synth did not make.*\n$")
 sslam_cli_test(NAME "synth of three oblique rooms" ARGS synth ${folder}/refused --rooms 3 --world oblique CODE 1
                ERR "^sslam: error: several rooms have Manhattan walls.*\n$")
+sslam_cli_test(NAME "synth of three rooms off square" ARGS synth ${folder}/refused --rooms 3 --off-square 2 CODE 1
+               ERR "^sslam: error: --off-square [^\n]* needs --rooms 1 and --world manhattan\n$")
+sslam_cli_test(NAME "synth of a free room off square" ARGS synth ${folder}/refused --world free --off-square 2 CODE 1
+               ERR "^sslam: error: --off-square [^\n]* needs --rooms 1 and --world manhattan\n$")
+sslam_cli_test(NAME "synth of a floor with doors ajar" ARGS synth ${folder}/refused --rooms 4 --doors-ajar CODE 1
+               ERR "^sslam: error: a floor of many rooms [^\n]*--doors-ajar and --clutter need --rooms 1 or 3\n$")
+sslam_cli_test(NAME "synth of a floor with clutter" ARGS synth ${folder}/refused --rooms 2 --clutter 5 CODE 1
+               ERR "^sslam: error: a floor of many rooms [^\n]*--doors-ajar and --clutter need --rooms 1 or 3\n$")

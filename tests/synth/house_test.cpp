@@ -10,6 +10,7 @@
 
 #include "sslam/synth/render.hpp"
 #include "support/catch.hpp"
+#include "synth/seen_from.hpp"
 
 using namespace sslam;
 using namespace sslam::synth;
@@ -47,13 +48,6 @@ double cast_ray(const Scene& scene, const SE3<double>& world_from_cam, const Vec
     if (s >= 0.0 && s <= face.width && t >= 0.0 && t <= face.height) nearest = std::max(nearest, 1.0 / z);
   }
   return nearest;
-}
-
-double distance(const Face& face, const Vec3<double>& p) {
-  const Vec3<double> d = p - face.origin;
-  const double s = std::clamp(face.along_s.dot(d), 0.0, face.width);
-  const double t = std::clamp(face.along_t.dot(d), 0.0, face.height);
-  return (p - face.at(s, t)).norm();
 }
 
 }  // namespace
@@ -227,13 +221,7 @@ TEST_CASE("every kind of house keeps the camera clear of walls and furniture") {
   options.rooms = kRooms[static_cast<std::size_t>(seed - 1)];
   options.world = static_cast<World>(seed % (options.rooms > 1 ? 2 : 4));
   options.path = static_cast<PathKind>(seed % 3);
-  const House house = build_house(options);
-  double nearest = 1e9;
-  for (double t = 0.0; t < house.path.lap_seconds(); t += 0.25) {
-    const Vec3<double> camera = house.path.world_from_cam(t).translation;
-    for (const Face& face : house.scene.faces) nearest = std::min(nearest, distance(face, camera));
-  }
-  CHECK(nearest > 0.25);
+  CHECK(nearest_to_path(build_house(options)) > 0.25);
 }
 
 TEST_CASE("the world has the headings that were asked for") {

@@ -11,7 +11,9 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/synth/decor.hpp"
+#include "sslam/synth/doors.hpp"
 #include "sslam/synth/floor_plan.hpp"
+#include "sslam/synth/floor_space.hpp"
 #include "sslam/synth/house_options.hpp"
 #include "sslam/synth/late_lighting.hpp"
 #include "sslam/synth/path.hpp"
@@ -36,7 +38,7 @@ class BuildingBuilder {
     for (std::size_t c = 0; c < walls_.size(); ++c) {
       fill(c, [&] {
         const Vec2<double> low = scene_.cells[c].low, high = scene_.cells[c].high;
-        add_room(scene_, decor_, walls_[c], low, high, scene_.cells[c].sill > 0.0 ? 3 : 2);
+        add_room(scene_, decor_, doors_, walls_[c], low, high, scene_.cells[c].sill > 0.0 ? 3 : 2);
       });
     }
     const std::uint64_t sway = random_.next();
@@ -134,7 +136,8 @@ class BuildingBuilder {
       std::vector<Vec2<double>> here;
       for (const Vec3<double>& p : walked)
         if (scene_.cells[c].holds(p, kNear)) here.push_back(p.head<2>());
-      fill(c, [&] { FurniturePlacer(scene_, decor_, std::move(here), turned).furnish(walls_[c]); });
+      FloorSpace space(std::move(here));
+      fill(c, [&] { FurniturePlacer(scene_, decor_, space, turned, {0.0, 0}).furnish(walls_[c]); });
     }
   }
 
@@ -144,6 +147,7 @@ class BuildingBuilder {
   Decor decor_;
   double height_;
   FloorPlan plan_;
+  DoorHanger doors_{false, 0};
   std::vector<std::vector<Wall>> walls_;  // by cell
 };
 

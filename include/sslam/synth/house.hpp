@@ -9,10 +9,14 @@
 
 #include "sslam/core/random.hpp"
 #include "sslam/synth/building.hpp"
+#include "sslam/synth/clutter.hpp"
 #include "sslam/synth/decor.hpp"
+#include "sslam/synth/doors.hpp"
 #include "sslam/synth/floor_plan.hpp"
+#include "sslam/synth/floor_space.hpp"
 #include "sslam/synth/house_options.hpp"
 #include "sslam/synth/lighting.hpp"
+#include "sslam/synth/off_square.hpp"
 #include "sslam/synth/path.hpp"
 #include "sslam/synth/placer.hpp"
 #include "sslam/synth/rooms.hpp"
@@ -26,7 +30,9 @@ class HouseBuilder {
   explicit HouseBuilder(const HouseOptions& options)
       : options_(options),
         random_(options.seed * 0x9E3779B97F4A7C15ULL + 11),
-        decor_(scene_, options.richness, options.texel, random_.next()) {}
+        decor_(scene_, options.richness, options.texel, random_.next()),
+        off_(options.off_square, own_seed(1)),
+        doors_(options.doors_ajar, own_seed(2)) {}
 
   template <class ForEach>
   [[nodiscard]] House build(const ForEach& for_each) {
@@ -41,14 +47,20 @@ class HouseBuilder {
       walked.push_back(path.world_from_cam(t).translation.head<2>());
     }
     const bool turned = options_.world == World::kTurned || options_.world == World::kFree;
-    FurniturePlacer(scene_, decor_, std::move(walked), turned).furnish(walls_);
+    FloorSpace space(std::move(walked));
+    doors_.open(scene_, space);
+    FurniturePlacer furniture(scene_, decor_, space, turned, off_);
+    furniture.furnish(walls_);
+    if (options_.clutter > 0)
+      ClutterPlacer(scene_, decor_, space, furniture.tops(), own_seed(3)).scatter(options_.clutter, walls_);
     if (options_.lit) bake_lighting(scene_, options_.lighting, for_each);
-    return {std::move(scene_), std::move(path)};
+    return {std::move(scene_), std::move(path), std::move(outline_)};
   }
 
  private:
   void build_room() {
-    const Outline corners = random_outline(options_.world, random_);
+    const Outline square = random_outline(options_.world, random_);
+    const Outline& corners = outline_ = options_.off_square > 0.0 ? turned_edges(square, off_) : square;
     const double height = random_.uniform(2.45, 2.9);
     walls_ = walls_around(corners, height);
     Vec2<double> low = corners[0], high = corners[0], centre = Vec2<double>::Zero();
@@ -61,7 +73,7 @@ class HouseBuilder {
     for (std::size_t k = 0; k < walls_.size(); ++k) {
       add_openings(walls_[(first + k) % walls_.size()], k == 0 || k == 2, k == 1, random_);
     }
-    add_room(scene_, decor_, walls_, low, high, 3);
+    add_room(scene_, decor_, doors_, walls_, low, high, 3);
     const FreeArea area = free_area(walls_, centre, 0.5 * (high - low));
     const double facing = walls_[random_.below(static_cast<std::uint32_t>(walls_.size()))].place.yaw - 1.2;
     switch (options_.path) {
@@ -75,6 +87,11 @@ class HouseBuilder {
         route_ = pivot_route(area, random_);
         break;
     }
+  }
+
+  // Of what has draws of its own, so that all else stays as it is without it.
+  [[nodiscard]] std::uint64_t own_seed(std::uint64_t number) const noexcept {
+    return Random(options_.seed ^ (0xD1B54A32D192ED03ULL * number)).next();
   }
 
   // A corridor along x and three rooms on its left, each behind an open door.
@@ -98,7 +115,7 @@ class HouseBuilder {
       room[0].openings.push_back(
           {Opening::kPassage, door[i] - left[i] - kHalfDoor, door[i] - left[i] + kHalfDoor, 0.0, 2.1, 0.0});
       add_openings(room[2], true, false, random_);
-      add_room(scene_, decor_, room, {left[i], near}, {right[i], far}, 2);
+      add_room(scene_, decor_, doors_, room, {left[i], near}, {right[i], far}, 2);
       walls_.insert(walls_.end(), room.begin(), room.end());
       const double along = length - door[i];  // the corridor's wall 2 runs against x
       corridor[2].openings.insert(corridor[2].openings.begin(), {Opening::kPassage, along - kHalfDoor,
@@ -107,7 +124,7 @@ class HouseBuilder {
         there.push_back(p);
     }
     corridor[0].openings.push_back({Opening::kDoor, 0.5 * length, 0.5 * length + 0.9, 0.0, 2.05, 0.1});
-    add_room(scene_, decor_, corridor, {0.0, 0.0}, {length, deep}, 3);
+    add_room(scene_, decor_, doors_, corridor, {0.0, 0.0}, {length, deep}, 3);
     walls_.insert(walls_.end(), corridor.begin(), corridor.end());
     there.insert(there.begin(), {1.2, 0.55 * deep});
     there.push_back({door[2] - 1.5, 0.35 * deep});
@@ -121,6 +138,9 @@ class HouseBuilder {
   Random random_;
   Scene scene_;
   Decor decor_;
+  OffSquare off_;
+  DoorHanger doors_;
+  Outline outline_;
   Route route_;
   std::vector<Wall> walls_;
 };

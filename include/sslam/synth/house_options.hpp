@@ -6,6 +6,7 @@
 
 #include "sslam/synth/decor.hpp"
 #include "sslam/synth/light_baker.hpp"
+#include "sslam/synth/outline.hpp"
 #include "sslam/synth/path.hpp"
 #include "sslam/synth/scene.hpp"
 
@@ -31,12 +32,16 @@ struct HouseOptions {
   float texel = 0.003f;             // metres per texel on walls
   PathOptions motion = {};
   LightingOptions lighting = {};
-  bool lit = true;  // false: for who does not render, faces have no light
+  bool lit = true;          // false: for who does not render, faces have no light
+  double off_square = 0.0;  // degrees, standard deviation of walls and furniture; of a kManhattan room
+  bool doors_ajar = false;  // of one room or three
+  int clutter = 0;          // small things, of one room or three
 };
 
 struct House {
   Scene scene;
   ClosedPath path;
+  Outline outline = {};  // of a single room; wall i runs from corner i to the next
 };
 
 }  // namespace sslam::synth

@@ -4,19 +4,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
+#include "sslam/synth/floor_space.hpp"
 #include "sslam/synth/furniture.hpp"
-#include "sslam/synth/walls.hpp"
+#include "sslam/synth/off_square.hpp"
+#include "sslam/synth/outline.hpp"
 
 namespace sslam::synth {
 
+// Of a table or a desk.
+struct TableTop {
+  FloorArea area;
+  double height;
+  std::size_t first_face, last_face;   // of the piece with what it came with; last exclusive
+  std::vector<FloorArea> things = {};  // put there since
+};
+
 class FurniturePlacer {
  public:
-  // walked: places of the camera, seen from above. turned: pieces stand at any heading, not along their wall.
-  FurniturePlacer(Scene& scene, Decor& decor, std::vector<Vec2<double>> walked, bool turned)
-      : maker_(scene, decor), random_(decor.random().next()), walked_(std::move(walked)), turned_(turned) {}
+  // turned: pieces stand at any heading, not along their wall; off: by how much those along it miss it.
+  FurniturePlacer(Scene& scene, Decor& decor, FloorSpace& space, bool turned, OffSquare off)
+      : scene_(scene),
+        maker_(scene, decor),
+        random_(decor.random().next()),
+        space_(space),
+        turned_(turned),
+        off_(off) {}
 
   // Tries pieces along every wall, larger rooms get more; a piece must leave the path and the openings free.
   void furnish(const std::vector<Wall>& walls) {
@@ -33,16 +48,12 @@ class FurniturePlacer {
     }
   }
 
- private:
-  struct Area {
-    Placement place;
-    Vec2<double> low, high;  // in the placement's frame
-  };
-  static constexpr double kClearance = 0.45;  // from the path, metres
+  [[nodiscard]] const std::vector<TableTop>& tops() const noexcept { return tops_; }
 
+ private:
   bool place(Piece piece, const Vec3<double>& size, const Wall& wall, double x,
              const std::vector<Wall>& walls) {
-    const double turn = piece == Piece::kPillar || !turned_ ? 0.0 : random_turn();
+    const double turn = piece == Piece::kPillar ? 0.0 : turned_ ? random_turn() : off_.angle();
     const double gap = turn == 0.0 ? 0.02 : 0.02 + 0.5 * size.x() * std::sin(std::abs(turn));
     for (const Opening& o : wall.openings) {
       const bool low_enough = o.kind == Opening::kWindow && size.z() < o.bottom - 0.08 && size.z() > 0.0;
@@ -50,19 +61,17 @@ class FurniturePlacer {
         return false;
     }
     const Vec3<double> at = wall.place.point(x, gap, 0.0);
-    const Area footprint{
+    const FloorArea area{
         {at.head<2>(), wall.place.yaw + turn}, {-0.5 * size.x(), 0.0}, {0.5 * size.x(), size.y()}};
-    for (const Vec2<double>& p : walked_) {
-      if (distance(footprint, p) < kClearance) return false;
-    }
-    for (const Area& other : placed_) {
-      if (overlap(footprint, other) || overlap(other, footprint)) return false;
-    }
+    if (!space_.free(area)) return false;
     for (const Wall& other : walls) {
-      if (&other != &wall && pierces(footprint, other)) return false;
+      if (&other != &wall && pierces(area, other)) return false;
     }
-    placed_.push_back(footprint);
-    maker_.make(piece, footprint.place, size);
+    space_.take(area);
+    const std::size_t first = scene_.faces.size();
+    maker_.make(piece, area.place, size);
+    if (piece == Piece::kTable || piece == Piece::kDesk)
+      tops_.push_back({area, size.z(), first, scene_.faces.size()});
     return true;
   }
 
@@ -71,46 +80,13 @@ class FurniturePlacer {
     return random_.below(2) == 0 ? angle : -angle;
   }
 
-  static Vec2<double> corner(const Area& f, double a, double b) {
-    return f.place
-        .point(f.low.x() + a * (f.high.x() - f.low.x()), f.low.y() + b * (f.high.y() - f.low.y()), 0.0)
-        .head<2>();
-  }
-
-  static double distance(const Area& f, const Vec2<double>& p) {
-    const Vec2<double> d = p - f.place.at;
-    const Vec2<double> local(f.place.x_axis().head<2>().dot(d), f.place.y_axis().head<2>().dot(d));
-    return (local - local.cwiseMax(f.low).cwiseMin(f.high)).norm();
-  }
-
-  static bool overlap(const Area& a, const Area& b) {
-    for (int i = 0; i <= 8; ++i) {
-      for (int k = 0; k <= 4; ++k) {
-        if (distance(a, corner(b, i / 8.0, k / 4.0)) < 0.06) return true;
-      }
-    }
-    return false;
-  }
-
-  // True when the footprint reaches through a wall, or in front of one of its openings.
-  static bool pierces(const Area& f, const Wall& wall) {
-    for (int i = 0; i < 4; ++i) {
-      const Vec2<double> d = corner(f, i & 1, i >> 1) - wall.place.at;
-      const double along = wall.place.x_axis().head<2>().dot(d), out = wall.place.y_axis().head<2>().dot(d);
-      if (along < -0.2 || along > wall.length + 0.2 || out > 0.5) continue;
-      if (out < 0.03 && out > -0.6) return true;
-      for (const Opening& o : wall.openings) {
-        if (along > o.left - 0.1 && along < o.right + 0.1) return true;
-      }
-    }
-    return false;
-  }
-
+  Scene& scene_;
   FurnitureMaker maker_;
   Random random_;
-  std::vector<Vec2<double>> walked_;
+  FloorSpace& space_;
   bool turned_;
-  std::vector<Area> placed_;
+  OffSquare off_;
+  std::vector<TableTop> tops_;
 };
 
 }  // namespace sslam::synth

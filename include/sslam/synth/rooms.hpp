@@ -8,26 +8,13 @@
 #include <vector>
 
 #include "sslam/synth/decor.hpp"
+#include "sslam/synth/doors.hpp"
 #include "sslam/synth/house_options.hpp"
+#include "sslam/synth/outline.hpp"
 #include "sslam/synth/routes.hpp"
 #include "sslam/synth/walls.hpp"
 
 namespace sslam::synth {
-
-using Outline = std::vector<Vec2<double>>;  // corners, counterclockwise seen from above
-
-// Wall i runs from corner i to the next.
-[[nodiscard]] inline std::vector<Wall> walls_around(const Outline& corners, double height) {
-  std::vector<Wall> walls;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    walls.push_back(wall_between(corners[i], corners[(i + 1) % corners.size()], height));
-  }
-  return walls;
-}
-
-[[nodiscard]] inline Outline rectangle(const Vec2<double>& low, const Vec2<double>& high) {
-  return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-}
 
 // A counterclockwise outline for the chosen world.
 [[nodiscard]] inline Outline random_outline(World world, Random& random) {
@@ -102,8 +89,8 @@ inline void add_lamps(Scene& scene, Decor& decor, const Placement& ground, const
 }
 
 // Everything fixed in one room between the corners low and high of its bounding box.
-inline void add_room(Scene& scene, Decor& decor, const std::vector<Wall>& walls, const Vec2<double>& low,
-                     const Vec2<double>& high, int posters) {
+inline void add_room(Scene& scene, Decor& decor, DoorHanger& doors, const std::vector<Wall>& walls,
+                     const Vec2<double>& low, const Vec2<double>& high, int posters) {
   const double height = walls.front().height;
   const Vec2<double> size = high - low;
   const Placement ground{low, 0.0};
@@ -115,7 +102,7 @@ inline void add_room(Scene& scene, Decor& decor, const std::vector<Wall>& walls,
   const float high_wall = static_cast<float>(height);
   for (const Wall& wall : walls) {
     const Paint paint = decor.wall(static_cast<float>(wall.length), high_wall);
-    add_wall(scene, wall, paint, floor, decor);
+    add_wall(scene, wall, paint, floor, decor, doors);
     hang_posters(scene, wall, posters, decor);
   }
 }

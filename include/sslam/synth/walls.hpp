@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls of a room with doors, windows, skirting boards and pictures. A wall's Placement has x along the wall,
-// y into the room.
+// Walls of a room with doors, windows, skirting boards and pictures.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "sslam/synth/decor.hpp"
+#include "sslam/synth/doors.hpp"
+#include "sslam/synth/outline.hpp"
 #include "sslam/synth/scene.hpp"
 
 namespace sslam::synth {
-
-struct Opening {
-  enum Kind { kPassage, kDoor, kWindow } kind;
-  double left, right, bottom, top;  // metres along x and z
-  double depth = 0.12;              // of the reveal; 0 where the wall behind has it
-};
-
-struct Wall {
-  Placement place;
-  double length, height;
-  std::vector<Opening> openings = {};  // from left to right, not overlapping
-};
-
-[[nodiscard]] inline Wall wall_between(const Vec2<double>& from, const Vec2<double>& to, double height) {
-  const Vec2<double> run = to - from;
-  return {{from, std::atan2(run.y(), run.x())}, run.norm(), height};
-}
 
 // One flat piece of the wall; the texture runs on across pieces.
 inline void add_wall_piece(Scene& scene, const Wall& wall, double left, double right, double bottom,
@@ -58,21 +42,6 @@ inline void add_frame(Scene& scene, const Wall& wall, const Opening& o, const Pa
   add_box(scene, wall.place, {o.right, 0.0, bottom}, {o.right + kWide, kOut, o.top + kWide}, paint);
   add_box(scene, wall.place, {o.left, 0.0, o.top}, {o.right, kOut, o.top + kWide}, paint);
   if (closed) add_box(scene, wall.place, {o.left, 0.0, bottom}, {o.right, 0.06, o.bottom}, paint);
-}
-
-// A closed door: leaf set back in its frame, two panels, a handle.
-inline void add_door_leaf(Scene& scene, const Wall& wall, const Opening& o, Decor& decor) {
-  const Paint leaf = decor.furniture();
-  Paint darker = leaf;
-  darker.colour *= 0.9f;
-  const double back = -o.depth, face = back + 0.04;
-  add_box(scene, wall.place, {o.left, back, o.bottom}, {o.right, face, o.top}, leaf, Sides::kFront);
-  for (const double low : {0.15, 1.05}) {
-    add_box(scene, wall.place, {o.left + 0.14, face, low}, {o.right - 0.14, face + 0.012, low + 0.75},
-            darker);
-  }
-  add_box(scene, wall.place, {o.left + 0.04, face, 1.0}, {o.left + 0.17, face + 0.05, 1.025},
-          decor.plain(0.15f, 0.4f));
 }
 
 // Glass with the view behind it, a cross of bars, and the daylight that comes in.
@@ -106,7 +75,8 @@ inline void add_skirting(Scene& scene, const Wall& wall, const Paint& paint) {
   piece(wall.length);
 }
 
-inline void add_wall(Scene& scene, const Wall& wall, const Paint& paint, const Paint& floor, Decor& decor) {
+inline void add_wall(Scene& scene, const Wall& wall, const Paint& paint, const Paint& floor, Decor& decor,
+                     DoorHanger& doors) {
   double start = 0.0;
   for (const Opening& o : wall.openings) {
     add_wall_piece(scene, wall, start, o.left, 0.0, wall.height, paint);
@@ -115,7 +85,7 @@ inline void add_wall(Scene& scene, const Wall& wall, const Paint& paint, const P
     start = o.right;
     add_frame(scene, wall, o, decor.trim());
     if (o.depth > 0.0) add_reveal(scene, wall, o, decor.trim(), o.bottom > 0.0 ? decor.trim() : floor);
-    if (o.kind == Opening::kDoor) add_door_leaf(scene, wall, o, decor);
+    if (o.kind == Opening::kDoor) doors.hang(scene, wall, o, decor);
     if (o.kind == Opening::kWindow) add_window_pane(scene, wall, o, decor);
   }
   add_wall_piece(scene, wall, start, wall.length, 0.0, wall.height, paint);
