@@ -57,7 +57,7 @@ class ClutterPlacer {
       const Thing thing = static_cast<Thing>(random_.below(high ? 2 : 4));
       const Vec3<double> size = random_size(thing, random_);
       bool found = false;
-      for (int attempt = 0; attempt < 200 && !found; ++attempt)
+      for (int attempt = 0; attempt < 40 && !found; ++attempt)
         found = high ? put_on_table(thing, size) : put_on_floor(thing, size, walls);
       placed += found;
     }
