@@ -23,6 +23,7 @@
 #include "sslam/dense/dense_model.hpp"
 #include "sslam/dense/dense_plane.hpp"
 #include "sslam/dense/dense_view.hpp"
+#include "sslam/dense/depth_raster.hpp"
 #include "sslam/dense/label_smoother.hpp"
 #include "sslam/dense/map_samples.hpp"
 #include "sslam/dense/map_views.hpp"
