@@ -33,7 +33,7 @@ class FeatureAlignment {
  public:
   FeatureAlignmentOptions options;
 
-  // Moves the frame's point features to where they show what their landmark's first observation shows.
+  // Moves the frame's point features to where they show what their landmark's middle observation shows.
   // `seen`: their landmarks, kNone where there is none. Returns how many were moved; those whose patches are
   // not known, or not alike, stay.
   int align(const Map<S>& map, const SE3<S>& cam_from_world, std::span<const LandmarkId> seen,
@@ -62,10 +62,10 @@ class FeatureAlignment {
     PointFeature<S>& feature = frame.points[i];
     FeaturePatch* patch = patch_of(frame, feature);
     if (patch == nullptr || landmark.observations.empty()) return false;
-    const Observation& first = landmark.observations.front();
-    const Keyframe<S>& keyframe = map.keyframes[map.index(first.keyframe)];
+    const Observation& middle = middle_observation(map, landmark);
+    const Keyframe<S>& keyframe = map.keyframes[map.index(middle.keyframe)];
     if (keyframe.frame.index == frame.index) return false;
-    const PointFeature<S>& original = keyframe.frame.points[map.index(first.feature)];
+    const PointFeature<S>& original = keyframe.frame.points[map.index(middle.feature)];
     const FeaturePatch* reference = patch_of(keyframe.frame, original);
     if (reference == nullptr) return false;
     const auto turned = pixels_over(map, landmark, keyframe, original, cam_from_world, frame);
@@ -76,6 +76,20 @@ class FeatureAlignment {
     patch->centre += *shift;
     feature.pixel += (patch->spacing * *shift).template cast<S>();
     return true;
+  }
+
+  // That which sees the landmark most nearly from the mean of all directions: what is compared differs least.
+  [[nodiscard]] static const Observation& middle_observation(const Map<S>& map,
+                                                             const PointLandmark<S>& landmark) noexcept {
+    const auto nearness = [&](const Observation& o) {
+      const SE3<S>& pose = map.keyframes[map.index(o.keyframe)].cam_from_world;
+      const Vec3<S> to_camera = -(pose.rotation.inverse() * pose.translation) - landmark.position;
+      return to_camera.dot(landmark.viewing_direction) / to_camera.norm();
+    };
+    const Observation* middle = &landmark.observations.front();
+    for (const Observation& o : landmark.observations)
+      if (nearness(o) > nearness(*middle)) middle = &o;
+    return *middle;
   }
 
   template <class AnyFrame>
