@@ -27,7 +27,7 @@ namespace sslam::cli {
 
 inline constexpr double kDepthUnits = 5000;      // of the images, in a unit of the map, as TUM RGB-D has them
 inline constexpr double kFarthestUnits = 65535;  // what 16 bits hold
-inline constexpr double kModelNormalSigmaDeg = 0.5;  // what the normals of one plane get wrong together
+inline constexpr double kModelNormalSigmaDeg = 0.6;  // of a plane as a whole: the median in a rendered room
 
 struct DepthCounts {
   std::size_t keyframes = 0;
