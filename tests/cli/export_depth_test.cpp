@@ -85,7 +85,7 @@ TEST_CASE(
       if (straight)
         CHECK(fs::is_regular_file(out / images[i].second));
       else
-        CHECK(fs::equivalent(out / images[i].second, room.folder / "rgb" / file.filename()));
+        CHECK(fs::equivalent(out / images[i].second, room.folder / "rgb" / file.stem().concat(".jpg")));
       const auto same = std::find_if(true_rows.begin(), true_rows.end(),
                                      [&](const auto& row) { return row.second == file; });
       REQUIRE(same != true_rows.end());
