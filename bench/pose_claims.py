@@ -41,9 +41,14 @@ def track(dataset, start):
     return seen
 
 
+def spread(poses):
+    places = np.array(poses)[:, :3, 3]
+    return np.linalg.norm(places - places.mean(0))
+
+
 def scale_around(seen, i):
-    spread = [np.linalg.norm(p - p.mean(0)) for p in (np.array([entry[k][:3, 3] for entry in seen[max(0, i - AROUND):i + AROUND]]) for k in (0, 1))]
-    return spread[1] / spread[0]
+    true, found, _ = zip(*seen[max(0, i - AROUND):i + AROUND])
+    return spread(found) / spread(true)
 
 
 def squared_errors(seen, gap):

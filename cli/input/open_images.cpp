@@ -12,8 +12,9 @@
 namespace sslam::cli {
 namespace {
 
-// A file with the name of an image, whose content may be an animation.
-bool is_animated_png(const std::filesystem::path& path) {
+// Whether a file with the name of an image is read as a video: a PNG with frames. Throws Error for what holds
+// several images and is not.
+bool is_video_of_images(const std::filesystem::path& path) {
   std::error_code ignored;
   std::vector<std::uint8_t> bytes;
   ImageHeader header;
@@ -41,7 +42,7 @@ std::string_view layout_name(io::Layout layout) {
 
 io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions& options,
                         const io::BagTopics& topics, std::int64_t at_most) {
-  io::Dataset dataset = is_animated_png(path) ? io::read_video(path) : io::open_dataset(path, options);
+  io::Dataset dataset = is_video_of_images(path) ? io::read_video(path) : io::open_dataset(path, options);
   const bool bag = dataset.layout == io::Layout::kBag;
   if (!bag && !(topics.images.empty() && topics.depth.empty()))
     throw Error(path.string() + ": is no bag, so it has no topics; leave --topic and --depth-topic out");

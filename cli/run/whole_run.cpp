@@ -157,6 +157,7 @@ void WholeRun::track() {
 }
 
 void WholeRun::begin_pass() {
+  pass_.reset();  // two of them would write the same video
   calibration_->keep(camera_, head_);
   pass_ = std::make_unique<RunPass>(settings_, dataset_, camera_, std::move(wanted_), head_);
   if (stream_) {
@@ -169,7 +170,6 @@ void WholeRun::begin_pass() {
 }
 
 void WholeRun::track_again() {
-  pass_.reset();
   wanted_ = system_settings();
   begin_pass();
 }
@@ -180,7 +180,7 @@ void WholeRun::examine_camera() {
   if (!second && repeats() && !calibration_->is_guess() && calibration_->contradicts()) {
     const std::size_t tracked = outcome().trajectory.size();
     const CameraChoice given = camera_;
-    pass_.reset();
+    pass_.reset();  // its memory serves the search
     calibration_->find(system_settings(), camera_, found_at());
     track_again();
     if (!outcome().interrupted && calibration_->refuted(tracked, outcome().trajectory.size())) {

@@ -10,28 +10,20 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "cli/program.hpp"
+#include "cli/synth_run.hpp"
 #include "sslam/core/types.hpp"
 #include "support/catch.hpp"
-#include "support/scratch_folder.hpp"
 
 namespace real_room_test {
 
 using namespace sslam;
 using sslam::testing::Outcome;
-using sslam::testing::run_program;
+using sslam::testing::synth;
 using sslam::testing::text_of;
+using Scratch = sslam::testing::SynthScratch;
 namespace fs = std::filesystem;
 
 namespace {
-
-Outcome synth(const std::string& arguments) {
-  return run_program("synth " + arguments);
-}
-
-struct Scratch : testing::ScratchFolder {
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path() / name).string(); }
-};
 
 const std::string kSmall = " --quiet --size 160x120 --texture poor ";
 

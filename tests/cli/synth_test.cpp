@@ -11,32 +11,24 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "cli/program.hpp"
+#include "cli/synth_run.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
 #include "support/catch.hpp"
-#include "support/scratch_folder.hpp"
 
 namespace synth_test {
 
 using namespace sslam;
 using sslam::testing::Outcome;
-using sslam::testing::run_program;
+using sslam::testing::synth;
 using sslam::testing::text_of;
+using Scratch = sslam::testing::SynthScratch;
 namespace fs = std::filesystem;
 
 namespace {
-
-Outcome synth(const std::string& arguments) {
-  return run_program("synth " + arguments);
-}
-
-struct Scratch : testing::ScratchFolder {
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path() / name).string(); }
-};
 
 bool same_images(const std::string& a, const std::string& b, int frames) {
   for (int i = 0; i < frames; ++i) {

@@ -53,12 +53,16 @@ struct BoundedPlane {
   }
 };
 
+// normal . ray of a pixel, whose ray has z = 1, is linear in the pixel: row . (u, v, 1).
+[[nodiscard]] inline Vec3<double> ray_form(const Pinhole<double>& k, const Vec3<double>& n) {
+  return {n.x() / k.fx, n.y() / k.fy, n.z() - n.x() * k.cx / k.fx - n.y() * k.cy / k.fy};
+}
+
 // 1 / z of a plane is linear in the pixel: row . (u, v, 1), in the frame of the plane's transform. Zero where
 // the plane runs through the camera.
 [[nodiscard]] inline Vec3<double> inverse_depth_form(const Pinhole<double>& k, const Plane3<double>& in_cam) {
   if (!(std::abs(in_cam.distance) > 1e-12)) return Vec3<double>::Zero();
-  const Vec3<double> n = in_cam.normal / in_cam.distance;
-  return {n.x() / k.fx, n.y() / k.fy, n.z() - n.x() * k.cx / k.fx - n.y() * k.cy / k.fy};
+  return ray_form(k, in_cam.normal / in_cam.distance);
 }
 
 }  // namespace sslam::dense

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sslam/geometry/camera.hpp"
+#include "sslam/dense/dense_view.hpp"
 
 namespace sslam::dense {
 
@@ -43,8 +43,8 @@ class DepthRaster {
     const double volume = a.dot(b.cross(c));
     if (!(std::abs(volume) > kFlat * a.norm() * b.norm() * c.norm())) return;  // seen along its plane
     // Times (u, v, 1), by how much of each corner the pixel's ray with z = 1 is made up.
-    const Vec3<double> shares[] = {form(b.cross(c)) / volume, form(c.cross(a)) / volume,
-                                   form(a.cross(b)) / volume};
+    const auto share = [&](const Vec3<double>& n) -> Vec3<double> { return ray_form(pinhole_, n) / volume; };
+    const Vec3<double> shares[] = {share(b.cross(c)), share(c.cross(a)), share(a.cross(b))};
     const Vec3<double> normal = (b - a).cross(c - a).normalized();
     const Surface surface{shares[0] + shares[1] + shares[2], volume < 0 ? normal : Vec3<double>(-normal)};
     const auto id = static_cast<std::int32_t>(surfaces_.size());
@@ -76,12 +76,6 @@ class DepthRaster {
   struct Span {
     int first = 0, last = -1;
   };
-
-  // n . ray as a linear form of the pixel.
-  [[nodiscard]] Vec3<double> form(const Vec3<double>& n) const {
-    const double x = n.x() / pinhole_.fx, y = n.y() / pinhole_.fy;
-    return {x, y, n.z() - pinhole_.cx * x - pinhole_.cy * y};
-  }
 
   [[nodiscard]] std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);

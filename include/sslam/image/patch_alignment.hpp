@@ -65,7 +65,7 @@ class PatchAlignment {
   [[nodiscard]] static float bilinear(const FeaturePatch& patch, const Vec2<float>& at) noexcept {
     const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
     const float u = at.x() - static_cast<float>(x), v = at.y() - static_cast<float>(y);
-    const std::uint8_t* p = patch.grey.data() + y * FeaturePatch::kSide + x;
+    const std::uint8_t* p = patch.view().row(y) + x;
     const std::uint8_t* q = p + FeaturePatch::kSide;
     return (1 - v) * ((1 - u) * p[0] + u * p[1]) + v * ((1 - u) * q[0] + u * q[1]);
   }
@@ -130,7 +130,7 @@ class PatchAlignment {
     const float u = first.x() - static_cast<float>(left), v = first.y() - static_cast<float>(top);
     const float a = (1 - u) * (1 - v), b = u * (1 - v), c = (1 - u) * v, d = u * v;
     for (int y = 0; y < kWidth; ++y) {
-      const std::uint8_t* p = current.grey.data() + (top + y) * FeaturePatch::kSide + left;
+      const std::uint8_t* p = current.view().row(top + y) + left;
       const std::uint8_t* q = p + FeaturePatch::kSide;
       float* out = seen_.data() + y * kWidth;
       for (int x = 0; x < kWidth; ++x) out[x] = a * p[x] + b * p[x + 1] + c * q[x] + d * q[x + 1];

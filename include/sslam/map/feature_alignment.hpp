@@ -87,8 +87,9 @@ class FeatureAlignment {
       return to_camera.dot(landmark.viewing_direction) / to_camera.norm();
     };
     const Observation* middle = &landmark.observations.front();
+    S nearest = nearness(*middle);
     for (const Observation& o : landmark.observations)
-      if (nearness(o) > nearness(*middle)) middle = &o;
+      if (const S near = nearness(o); near > nearest) middle = &o, nearest = near;
     return *middle;
   }
 

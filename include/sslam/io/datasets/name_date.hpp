@@ -30,21 +30,25 @@ struct NameDate {
   std::string after;        // and from the seconds on
 };
 
+namespace name_date_detail {
+
+[[nodiscard]] inline bool is_digit(char c) noexcept {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace name_date_detail
+
 // Each run of digits as #.
 [[nodiscard]] inline std::string form_of(std::string_view text) {
   std::string form;
   for (const char c : text) {
-    const bool digit = c >= '0' && c <= '9';
+    const bool digit = name_date_detail::is_digit(c);
     if (!digit || form.empty() || form.back() != '#') form += digit ? '#' : c;
   }
   return form;
 }
 
 namespace name_date_detail {
-
-[[nodiscard]] inline bool is_digit(char c) noexcept {
-  return c >= '0' && c <= '9';
-}
 
 class Scanner {
  public:

@@ -151,8 +151,7 @@ class FinalPass {
   // frame_ has a pose; it gets that of its features once they are aligned.
   template <class Refinement>
   void align(Map<S>& map, Refinement& refinement) {
-    const SE3<S> found = frame_.cam_from_world;
-    if (alignment.align(map, found, frame_.point_landmarks, frame_.frame) == 0) return;
+    if (alignment.align(map, frame_.cam_from_world, frame_.point_landmarks, frame_.frame) == 0) return;
     last_.read_back(frame_);
     if (refinement.refine(map, nullptr, frame_).ok()) return;
     frame_.read_back(last_);
