@@ -87,6 +87,7 @@
 #include "sslam/map/free_ids.hpp"
 #include "sslam/map/id_shift.hpp"
 #include "sslam/map/keyframe.hpp"
+#include "sslam/map/keyframe_votes.hpp"
 #include "sslam/map/landmark.hpp"
 #include "sslam/map/landmark_precision.hpp"
 #include "sslam/map/local_map.hpp"

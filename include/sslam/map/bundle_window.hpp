@@ -4,9 +4,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
+#include "sslam/map/keyframe_votes.hpp"
 #include "sslam/map/map.hpp"
 #include "sslam/map/plane_ties.hpp"
 #include "sslam/solver/bundle/scale_tie.hpp"
@@ -122,17 +125,11 @@ class BundleWindow {
 
   // Appends the keyframes that share most with the window; ties go to the newer one.
   void hold_others(const Map<S>& map, std::size_t max_held) {
-    votes_.resize(map.keyframes.size(), 0);
-    others_.clear();
+    votes_.begin(map.keyframes.size());
     for (const LandmarkId id : points) vote(map.points[map.index(id)].observations);
     for (const LandmarkId id : lines) vote(map.lines[map.index(id)].observations);
-    std::sort(others_.begin(), others_.end(), [&](KeyframeId a, KeyframeId b) {
-      const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
-      return va != vb ? va > vb : a > b;
-    });
-    for (const KeyframeId k : others_) votes_[map.index(k)] = 0;
-    if (others_.size() > max_held) others_.resize(max_held);
-    for (const KeyframeId k : others_) {
+    const std::span<const KeyframeId> others = votes_.ranked(VoteTies::kNewerFirst);
+    for (const KeyframeId k : others.first(std::min(others.size(), max_held))) {
       view_of_[map.index(k)] = static_cast<std::int32_t>(keyframes.size());
       keyframes.push_back(k);
     }
@@ -140,8 +137,7 @@ class BundleWindow {
 
   void vote(const std::vector<Observation>& observations) {
     for (const Observation& o : observations)
-      if (view_of_[Map<S>::index(o.keyframe)] == kNone && votes_[Map<S>::index(o.keyframe)]++ == 0)
-        others_.push_back(o.keyframe);
+      if (view_of_[Map<S>::index(o.keyframe)] == kNone) votes_.add(o.keyframe);
   }
 
   void add_view(const Keyframe<S>& kf, std::size_t view, const BundleWindowOptions<S>& options) {
@@ -214,9 +210,8 @@ class BundleWindow {
 
   // Between two windows these say nothing: only what a window touched is put back.
   std::vector<std::int32_t> view_of_;  // by keyframe: its view, or kNone
-  std::vector<std::int32_t> votes_;    // by keyframe: observations of the window's landmarks
   std::vector<std::uint8_t> marks_;    // by landmark
-  std::vector<KeyframeId> others_;
+  KeyframeVotes votes_;                // observations of the window's landmarks
 };
 
 }  // namespace sslam

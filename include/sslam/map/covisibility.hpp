@@ -4,62 +4,48 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "sslam/map/keyframe.hpp"
+#include "sslam/map/keyframe_votes.hpp"
 
 namespace sslam {
-
-inline void sort_by_shared(std::vector<Neighbour>& neighbours) {
-  std::stable_sort(neighbours.begin(), neighbours.end(),
-                   [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
-}
 
 // Most shared first; one that shares nothing goes.
 inline void set_neighbour(std::vector<Neighbour>& neighbours, Neighbour neighbour) {
   std::erase_if(neighbours, [&](const Neighbour& n) { return n.keyframe == neighbour.keyframe; });
   if (neighbour.shared == 0) return;
   neighbours.push_back(neighbour);
-  sort_by_shared(neighbours);
+  std::stable_sort(neighbours.begin(), neighbours.end(),
+                   [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
 }
 
 // Counts anew what one keyframe shares with all others. What that costs grows with what it sees, not with the
 // map.
 class Covisibility {
  public:
-  void begin(std::size_t keyframe_count) { shared_.resize(keyframe_count, 0); }
-
-  template <class Landmarks>
-  void count(const std::vector<LandmarkId>& seen, const Landmarks& landmarks) {
-    for (const LandmarkId id : seen)
-      if (id != kNone)
-        for (const Observation& o : landmarks[static_cast<std::size_t>(id)].observations)
-          if (shared_[static_cast<std::size_t>(o.keyframe)]++ == 0) others_.push_back(o.keyframe);
-  }
-
-  // Those that were neighbours, on both sides, may be so no longer.
-  template <Scalar S>
-  void enter(KeyframeId id, std::vector<Keyframe<S>>& keyframes) {
+  template <Scalar S, class Points, class Lines>
+  void renew(KeyframeId id, const Points& points, const Lines& lines, std::vector<Keyframe<S>>& keyframes) {
+    const auto neighbours_of = [&](KeyframeId k) -> std::vector<Neighbour>& {
+      return keyframes[static_cast<std::size_t>(k)].neighbours;
+    };
     Keyframe<S>& kf = keyframes[static_cast<std::size_t>(id)];
+    shared_.begin(keyframes.size());
+    shared_.add(kf.point_landmarks.values(), points);
+    shared_.add(kf.line_landmarks.values(), lines);
+    // Those that were neighbours, on both sides, may be so no longer.
     for (const Neighbour& n : kf.neighbours)
-      if (shared_[static_cast<std::size_t>(n.keyframe)] == 0) others_.push_back(n.keyframe);
-    std::sort(others_.begin(), others_.end());
+      if (shared_.of(n.keyframe) == 0) set_neighbour(neighbours_of(n.keyframe), {id, 0});
     kf.neighbours.clear();
-    for (const KeyframeId other : others_) {
-      const std::int32_t shared = std::exchange(shared_[static_cast<std::size_t>(other)], 0);
+    for (const KeyframeId other : shared_.ranked(VoteTies::kOlderFirst)) {
       if (other == id) continue;
-      set_neighbour(keyframes[static_cast<std::size_t>(other)].neighbours, {id, shared});
-      if (shared > 0) kf.neighbours.push_back({other, shared});
+      set_neighbour(neighbours_of(other), {id, shared_.of(other)});
+      kf.neighbours.push_back({other, shared_.of(other)});
     }
-    others_.clear();
-    sort_by_shared(kf.neighbours);
   }
 
  private:
-  std::vector<std::int32_t> shared_;  // by keyframe; all 0 between two counts
-  std::vector<KeyframeId> others_;    // in question
+  KeyframeVotes shared_;  // landmarks
 };
 
 }  // namespace sslam

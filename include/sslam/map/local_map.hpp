@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sslam/map/keyframe_votes.hpp"
 #include "sslam/map/map.hpp"
 
 namespace sslam {
@@ -20,21 +21,16 @@ class LocalMap {
   std::vector<LandmarkId> points;
   std::vector<LandmarkId> lines;
 
-  // Keyframes that see the given landmarks, most votes first, at most `max_keyframes`; filled up with
-  // neighbours.
+  // Keyframes that see the given landmarks, most of them first and ties to the newer, at most
+  // `max_keyframes`; filled up with neighbours.
   void gather(const Map<S>& map, std::span<const LandmarkId> seen_points,
               std::span<const LandmarkId> seen_lines, std::size_t max_keyframes) {
-    votes_.resize(map.keyframes.size(), 0);
-    keyframes.clear();
-    count(map, map.points, seen_points);
-    count(map, map.lines, seen_lines);
-    // Ties go to the newer keyframe.
-    std::sort(keyframes.begin(), keyframes.end(), [&](KeyframeId a, KeyframeId b) {
-      const auto va = votes_[map.index(a)], vb = votes_[map.index(b)];
-      return va != vb ? va > vb : a > b;
-    });
-    for (const KeyframeId k : keyframes) votes_[map.index(k)] = 0;
-    if (keyframes.size() > max_keyframes) keyframes.resize(max_keyframes);
+    votes_.begin(map.keyframes.size());
+    votes_.add(seen_points, map.points);
+    votes_.add(seen_lines, map.lines);
+    const std::span<const KeyframeId> voted = votes_.ranked(VoteTies::kNewerFirst);
+    const auto most = voted.first(std::min(voted.size(), max_keyframes));
+    keyframes.assign(most.begin(), most.end());
     add_neighbours(map, max_keyframes);
     collect(map);
   }
@@ -50,14 +46,6 @@ class LocalMap {
   }
 
  private:
-  template <class Landmarks>
-  void count(const Map<S>& map, const Landmarks& landmarks, std::span<const LandmarkId> seen) {
-    for (const LandmarkId id : seen)
-      if (id != kNone)
-        for (const Observation& o : landmarks[map.index(id)].observations)
-          if (votes_[map.index(o.keyframe)]++ == 0) keyframes.push_back(o.keyframe);
-  }
-
   void add_neighbours(const Map<S>& map, std::size_t max_keyframes) {
     const std::size_t direct = keyframes.size();
     for (std::size_t i = 0; i < direct; ++i)
@@ -89,7 +77,7 @@ class LocalMap {
     }
   }
 
-  std::vector<std::int32_t> votes_;  // by keyframe; all 0 between two calls
+  KeyframeVotes votes_;
   std::vector<std::uint32_t> point_marks_;
   std::vector<std::uint32_t> line_marks_;
   std::uint32_t generation_ = 0;

@@ -221,13 +221,7 @@ class Map {
   }
 
   // Counts anew which keyframes share landmarks with this one, on both sides.
-  void update_covisibility(KeyframeId id) {
-    const Keyframe<S>& kf = keyframes[index(id)];
-    covisibility_.begin(keyframes.size());
-    covisibility_.count(kf.point_landmarks, points);
-    covisibility_.count(kf.line_landmarks, lines);
-    covisibility_.enter(id, keyframes);
-  }
+  void update_covisibility(KeyframeId id) { covisibility_.renew(id, points, lines, keyframes); }
 
   // Which landmarks may look like a descriptor.
   [[nodiscard]] const LookIndex& point_looks() const { return made(point_looks_, points); }

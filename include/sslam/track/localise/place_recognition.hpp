@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
+#include "sslam/map/keyframe_votes.hpp"
 #include "sslam/track/matching/match_points.hpp"
 
 namespace sslam {
@@ -61,8 +62,7 @@ class PlaceRecognition {
     for (const LandmarkId id : touched_) {
       Candidate& candidate = candidates_[map.index(id)];
       if (!candidate.excluded && candidate.features.accepted(options.max_distance, options.max_ratio))
-        for (const Observation& o : landmarks[map.index(id)].observations)
-          if (votes_[map.index(o.keyframe)]++ == 0) order_.push_back(o.keyframe);
+        votes_.add(landmarks[map.index(id)].observations);
       candidate = {};
     }
     touched_.clear();
@@ -87,27 +87,21 @@ class PlaceRecognition {
 
   std::vector<Candidate> candidates_;  // by landmark; untouched between two votes
   std::vector<LandmarkId> touched_;
-  std::vector<int> votes_;  // of each keyframe; all 0 between two questions
-  std::vector<KeyframeId> order_;
+  KeyframeVotes votes_;
 };
 
 template <Scalar S>
 void PlaceRecognition<S>::rank(const Map<S>& map, const Frame<S>& frame, std::vector<KeyframeId>& ranked,
                                std::span<const KeyframeId> apart_from) {
-  votes_.resize(map.keyframes.size(), 0);
-  order_.clear();
+  votes_.begin(map.keyframes.size());
   vote(map, map.points, map.point_looks(), &Keyframe<S>::point_landmarks, frame.points, apart_from);
   vote(map, map.lines, map.line_looks(), &Keyframe<S>::line_landmarks, frame.lines, apart_from);
-  std::sort(order_.begin(), order_.end(), [&](KeyframeId a, KeyframeId b) {
-    const int va = votes_[map.index(a)], vb = votes_[map.index(b)];
-    return va != vb ? va > vb : a < b;
-  });
-  std::size_t count = 0;
-  while (count < order_.size() && count < static_cast<std::size_t>(std::max(options.most, 0)) &&
-         votes_[map.index(order_[count])] >= options.min_votes)
-    ++count;
-  for (const KeyframeId k : order_) votes_[map.index(k)] = 0;
-  ranked.insert(ranked.end(), order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count));
+  const std::span<const KeyframeId> voted = votes_.ranked(VoteTies::kOlderFirst);
+  const auto most = static_cast<std::size_t>(std::max(options.most, 0));
+  for (const KeyframeId k : voted.first(std::min(voted.size(), most))) {
+    if (votes_.of(k) < options.min_votes) break;
+    ranked.push_back(k);
+  }
 }
 
 }  // namespace sslam
