@@ -97,6 +97,7 @@
 #include "sslam/map/map_adjustment.hpp"
 #include "sslam/map/map_deformation.hpp"
 #include "sslam/map/map_list.hpp"
+#include "sslam/map/observation_links.hpp"
 #include "sslam/map/plane_extent.hpp"
 #include "sslam/map/plane_members.hpp"
 #include "sslam/map/plane_ties.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map: keyframes and landmarks by id, and the bookkeeping that keeps observations and covisibility in
-// step.
+// The map: keyframes and landmarks by id, and what has to be kept in step when they change: observations,
+// covisibility, members of planes, and what landmarks look like.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "sslam/map/keyframe.hpp"
 #include "sslam/map/look_index.hpp"
 #include "sslam/map/manhattan_axes.hpp"
+#include "sslam/map/observation_links.hpp"
 #include "sslam/map/plane_members.hpp"
 
 namespace sslam {
@@ -43,8 +44,8 @@ class Map {
     keyframe.neighbours.clear();  // those of another map, where some may be newer than it
     keyframes.push_back(std::move(keyframe));
     Keyframe<S>& kf = keyframes.back();
-    enter(kf.point_landmarks.values_, points, id);
-    enter(kf.line_landmarks.values_, lines, id);
+    ObservationLinks::complete(id, kf.point_landmarks, points);
+    ObservationLinks::complete(id, kf.line_landmarks, lines);
     for (std::size_t i = 0; i < kf.point_landmarks.size(); ++i)
       if (kf.point_landmarks[i] != kNone) renew_point(kf.point_landmarks[i], kf, i);
     for (std::size_t i = 0; i < kf.line_landmarks.size(); ++i)
@@ -78,16 +79,14 @@ class Map {
 
   void observe_point(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
     Keyframe<S>& kf = keyframes[index(keyframe)];
-    kf.point_landmarks.values_[feature] = id;
-    points[index(id)].observations.values_.push_back({keyframe, static_cast<std::int32_t>(feature)});
+    ObservationLinks::add(id, points[index(id)], keyframe, feature, kf.point_landmarks);
     renew_point(id, kf, feature);
   }
 
   void observe_line(LandmarkId id, KeyframeId keyframe, std::size_t feature) {
     Keyframe<S>& kf = keyframes[index(keyframe)];
-    kf.line_landmarks.values_[feature] = id;
     LineLandmark<S>& line = lines[index(id)];
-    line.observations.values_.push_back({keyframe, static_cast<std::int32_t>(feature)});
+    ObservationLinks::add(id, line, keyframe, feature, kf.line_landmarks);
     look_like(id, kf.frame.lines[feature].descriptor);
     if (line.axis == kNone) line.axis = kf.line_axes.empty() ? std::int8_t{kNone} : kf.line_axes[feature];
   }
@@ -146,7 +145,7 @@ class Map {
       IdShift::apply(kf.id, shift.keyframes);
       IdShift::apply(kf.parent, shift.keyframes);
       for (Neighbour& n : kf.neighbours) n.keyframe += shift.keyframes;
-      shift.apply_to_matches(kf.point_landmarks.values_, kf.line_landmarks.values_);
+      ObservationLinks::shift(kf, shift);
     }
     for (auto& point : other.points) move_ids(point, shift);
     for (auto& line : other.lines) move_ids(line, shift);
@@ -168,10 +167,12 @@ class Map {
 
   // Withdraws one observation; a landmark left with fewer than two goes too.
   void forget_point(LandmarkId id, KeyframeId keyframe) {
-    if (forget(points, id, keyframe, &Keyframe<S>::point_landmarks)) erase_point(id);
+    if (ObservationLinks::remove(points[index(id)], keyframe, keyframes, &Keyframe<S>::point_landmarks))
+      erase_point(id);
   }
   void forget_line(LandmarkId id, KeyframeId keyframe) {
-    if (forget(lines, id, keyframe, &Keyframe<S>::line_landmarks)) erase_line(id);
+    if (ObservationLinks::remove(lines[index(id)], keyframe, keyframes, &Keyframe<S>::line_landmarks))
+      erase_line(id);
   }
 
   // Hands the observations of `from` to `into`, where `into` has none in that keyframe, and erases `from`.
@@ -195,8 +196,8 @@ class Map {
       for (const LandmarkId landmark : seen)
         if (landmark != kNone) forget(landmark);
     };
-    forget_all(keyframes[index(id)].point_landmarks.values_, [&](LandmarkId p) { forget_point(p, id); });
-    forget_all(keyframes[index(id)].line_landmarks.values_, [&](LandmarkId l) { forget_line(l, id); });
+    forget_all(keyframes[index(id)].point_landmarks, [&](LandmarkId p) { forget_point(p, id); });
+    forget_all(keyframes[index(id)].line_landmarks, [&](LandmarkId l) { forget_line(l, id); });
     Keyframe<S>& kf = keyframes[index(id)];
     for (const Neighbour& n : kf.neighbours) set_neighbour(keyframes[index(n.keyframe)].neighbours, {id, 0});
     Keyframe<S> rest;
@@ -257,21 +258,9 @@ class Map {
   }
 
   static void move_ids(LandmarkCommon& landmark, const IdShift& shift) {
-    for (Observation& o : landmark.observations.values_) o.keyframe += shift.keyframes;
+    ObservationLinks::shift(landmark, shift);
     IdShift::apply(landmark.first_keyframe, shift.keyframes);
     IdShift::apply(landmark.plane, shift.planes);
-  }
-
-  template <class Landmarks>
-  static void enter(std::vector<LandmarkId>& seen, Landmarks& landmarks, KeyframeId keyframe) {
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (seen[i] == kNone) continue;
-      auto& landmark = landmarks[index(seen[i])];
-      if (landmark.alive)
-        landmark.observations.values_.push_back({keyframe, static_cast<std::int32_t>(i)});
-      else
-        seen[i] = kNone;
-    }
   }
 
   void renew_point(LandmarkId id, const Keyframe<S>& kf, std::size_t feature) {
@@ -290,31 +279,14 @@ class Map {
   void erase(Landmarks& landmarks, FreeIds& free, LandmarkId id, Member seen) {
     auto& landmark = landmarks[index(id)];
     if (!landmark.alive) return;
-    for (const Observation& o : landmark.observations) {
-      LandmarkId& slot = (keyframes[index(o.keyframe)].*seen).values_[index(o.feature)];
-      if (slot == id) slot = kNone;
-    }
-    landmark.observations.values_.clear();
-    landmark.observations.values_.shrink_to_fit();
+    ObservationLinks::remove_all(id, landmark, keyframes, seen);
     landmark.alive = false;
     free.add(id);
   }
 
-  // True when too few observations are left.
-  template <class Landmarks, class Member>
-  [[nodiscard]] bool forget(Landmarks& landmarks, LandmarkId id, KeyframeId keyframe, Member seen) {
-    auto& observations = landmarks[index(id)].observations.values_;
-    const auto gone = std::find_if(observations.begin(), observations.end(),
-                                   [&](const Observation& o) { return o.keyframe == keyframe; });
-    if (gone == observations.end()) return false;
-    (keyframes[index(keyframe)].*seen).values_[index(gone->feature)] = kNone;
-    observations.erase(gone);
-    return observations.size() < 2;
-  }
-
   template <class Landmarks, class Observe>
   void hand_over(Landmarks& landmarks, LandmarkId from, LandmarkId into, Observe observe) {
-    const std::vector<Observation> moved = landmarks[index(from)].observations.values_;
+    const std::vector<Observation> moved = landmarks[index(from)].observations;
     for (const Observation& o : moved) {
       const auto& has = landmarks[index(into)].observations;
       if (std::none_of(has.begin(), has.end(),

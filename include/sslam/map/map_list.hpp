@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A list of the map that everybody reads and the map alone changes: an observation stands in two of them, and
-// they stay in step.
+// A list of the map that everybody reads and the map alone changes, through ObservationLinks: an observation
+// stands in two of them, and they stay in step.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,7 @@
 
 namespace sslam {
 
-template <Scalar S>
-class Map;
+class ObservationLinks;
 template <Scalar S>
 struct Keyframe;
 struct LandmarkCommon;
@@ -38,8 +37,7 @@ class MapList {
   friend bool operator==(const MapList& a, const std::vector<T>& b) { return a.values_ == b; }
 
  private:
-  template <Scalar S>
-  friend class Map;
+  friend class ObservationLinks;
   template <Scalar S>
   friend struct Keyframe;
   friend struct LandmarkCommon;
