@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cli/results/frame_record.hpp"
@@ -23,9 +22,6 @@ struct RunContext {
   double view_fov = 0;  // degrees across that the images of a wide lens were undistorted to, the cameras'
                         // view; 0: they are no such images
 };
-
-// What was asked for, as metrics.json has it; the parameters come from the outcome.
-[[nodiscard]] nlohmann::ordered_json settings_json(const RunContext& context);
 
 // Writes all files into a folder, metrics.json with the checksums of the others, and prints the summary.
 // Throws Error when a file cannot be written.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/results/run_metrics.hpp"
 #include "cli/shell/interrupt.hpp"
 #include "cli/shell/messages.hpp"
 
