@@ -44,7 +44,7 @@ function numbersOr(otherwise, values, count) {
   return good ? values : otherwise;
 }
 
-// What report_data.cpp calls witnesses, with the list of each landmark's keyframes cut out of the common one.
+// What map_data.cpp calls witnesses, with the list of each landmark's keyframes cut out of the common one.
 function withWitnesses({ counts, listed, keyframes, planes }) {
   const from = new Uint32Array(listed.length + 1);
   listed.forEach((count, i) => { from[i + 1] = from[i] + count; });

@@ -4,11 +4,17 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
+#include <vector>
 
 #include "cli/report/base64.hpp"
+#include "sslam/core/types.hpp"
 #include "sslam/io/maps/byte_archive.hpp"
 
 namespace sslam::cli {
+
+inline void append(std::vector<double>& values, const Vec3<double>& v) {
+  values.insert(values.end(), {v.x(), v.y(), v.z()});
+}
 
 // type: the name that data.js has for arrays of Target.
 template <class Target, class Number>

@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
-#include <span>
 #include <string_view>
 
+#include "cli/report/frame_rows.hpp"
+#include "cli/report/map_data.hpp"
 #include "cli/report/packed.hpp"
-#include "cli/report/seen_part.hpp"
 #include "cli/report/surface_data.hpp"
+#include "cli/report/truth_data.hpp"
 #include "cli/results/scale_record.hpp"
 #include "cli/video/overlay_colours.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
-#include "sslam/map/plane_extent.hpp"
 #include "sslam/map/vertical.hpp"
 #include "sslam/version.hpp"
 
@@ -26,28 +25,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNone64 = std::numeric_limits<double>::quiet_NaN();
-
-void append(std::vector<double>& values, const Vec3<double>& v) {
-  values.insert(values.end(), {v.x(), v.y(), v.z()});
-}
-
-void append(std::vector<double>& values, const SE3<double>& pose) {
+void append_pose(std::vector<double>& values, const SE3<double>& pose) {
   append(values, pose.translation);
   const auto q = pose.rotation.quaternion();
   values.insert(values.end(), {q.x(), q.y(), q.z(), q.w()});
 }
 
-Json colours_json(const std::vector<LandmarkColour>& colours) {
-  std::vector<double> values;
-  for (const LandmarkColour& colour : colours)
-    for (const std::uint8_t channel : colour.value_or(io::kNoColour)) values.push_back(channel);
-  return packed<std::uint8_t>("u8", values);
-}
-
 Json poses_json(const io::Trajectory& poses) {
   std::vector<double> values;
-  for (const io::StampedPose& pose : poses) append(values, pose.world_from_cam);
+  for (const io::StampedPose& pose : poses) append_pose(values, pose.world_from_cam);
   return floats(values);
 }
 
@@ -95,13 +81,7 @@ std::optional<FoundAlignment> find_alignment(const Json& metrics) {
 
 class DataMaker {
  public:
-  explicit DataMaker(RunFolder& run) : run_(run) {
-    const io::CsvTable& frames = run.frames;
-    const std::size_t stamp = frames.column("stamp");
-    if (stamp == frames.columns.size()) return;
-    for (std::size_t row = 0; row < frames.rows(); ++row)
-      if (const auto value = io::parse_number<double>(frames.cell(row, stamp))) row_of_[*value] = row;
-  }
+  explicit DataMaker(RunFolder& run) : run_(run), rows_(run.frames) {}
 
   [[nodiscard]] Json make() {
     data_["metrics"] = run_.metrics;
@@ -115,7 +95,7 @@ class DataMaker {
     const Vec3<double> up = up_direction(run_.map);
     data_["up"] = {up.x(), up.y(), up.z()};
     add_keyframes();
-    add_map();
+    add_map_data(run_, data_);
     add_surfaces();
     try {
       add_truth();
@@ -131,22 +111,16 @@ class DataMaker {
   }
 
  private:
-  // Of the frame with exactly this stamp: both files have it to the last bit.
-  [[nodiscard]] std::optional<std::size_t> row_of(double stamp) const {
-    const auto at = row_of_.find(stamp);
-    return at == row_of_.end() ? std::nullopt : std::optional(at->second);
-  }
-
   void add_poses() {
     constexpr std::size_t kSize = 7;
-    std::vector<double> poses(run_.frames.rows() * kSize, kNone64);
+    std::vector<double> poses = rows_.empty(kSize);
     std::size_t strangers = 0;
     for (const io::StampedPose& pose : run_.trajectory) {
-      const auto row = row_of(pose.stamp);
+      const auto row = rows_.row_of(pose.stamp);
       if (!row) ++strangers;
       if (!row) continue;
       std::vector<double> values;
-      append(values, pose.world_from_cam);
+      append_pose(values, pose.world_from_cam);
       std::copy(values.begin(), values.end(), poses.begin() + static_cast<std::ptrdiff_t>(*row * kSize));
     }
     if (strangers > 0)
@@ -159,106 +133,11 @@ class DataMaker {
   void add_keyframes() {
     std::vector<double> rows;
     for (const io::StampedPose& pose : run_.keyframes) {
-      const auto row = row_of(pose.stamp);
+      const auto row = rows_.row_of(pose.stamp);
       rows.push_back(row ? static_cast<double>(*row) : -1);
     }
     data_["keyframes"] = poses_json(run_.keyframes);
     data_["keyframe_rows"] = packed<std::int32_t>("i32", rows);
-  }
-
-  // Where each keyframe of the map stands in the list of this run's keyframes. Those of an earlier run may
-  // have the same stamps, but not the same places.
-  [[nodiscard]] std::vector<std::optional<std::size_t>> places_of_keyframes() const {
-    constexpr double kRounding = 1e-6;  // of a pose in a text file, map units
-    std::map<double, std::size_t> place_of_stamp;
-    for (std::size_t i = 0; i < run_.keyframes.size(); ++i) place_of_stamp[run_.keyframes[i].stamp] = i;
-    std::vector<std::optional<std::size_t>> places;
-    for (const auto& keyframe : run_.map.keyframes) {
-      const auto found = place_of_stamp.find(keyframe.frame.stamp);
-      const bool same = keyframe.alive() && found != place_of_stamp.end() &&
-                        (run_.keyframes[found->second].world_from_cam.translation -
-                         keyframe.cam_from_world.inverse().translation)
-                                .norm() <= kRounding;
-      places.push_back(same ? std::optional(found->second) : std::nullopt);
-    }
-    return places;
-  }
-
-  // Landmarks that are shown: by how many keyframes each is seen, which of this run's they are, one after the
-  // other, and on which of the shown planes it lies.
-  struct Witnesses {
-    std::vector<double> counts, keyframes, listed, planes;
-
-    [[nodiscard]] Json json() const {
-      return {{"counts", packed<std::uint16_t>("u16", counts)},
-              {"listed", packed<std::uint16_t>("u16", listed)},
-              {"keyframes", packed<std::uint16_t>("u16", keyframes)},
-              {"planes", packed<std::int32_t>("i32", planes)}};
-    }
-  };
-
-  void add_witnesses(const LandmarkCommon& landmark, Witnesses& to) const {
-    constexpr std::size_t kMost = 65535;
-    std::size_t listed = 0;
-    for (const Observation& o : landmark.observations) {
-      const auto& place = places_[Map<double>::index(o.keyframe)];
-      if (!place || *place > kMost || listed == kMost) continue;
-      to.keyframes.push_back(static_cast<double>(*place));
-      ++listed;
-    }
-    to.counts.push_back(static_cast<double>(std::min(landmark.observations.size(), kMost)));
-    to.listed.push_back(static_cast<double>(listed));
-    to.planes.push_back(landmark.plane == kNone ? -1 : shown_planes_[Map<double>::index(landmark.plane)]);
-  }
-
-  void add_map() {
-    const Map<double>& map = run_.map;
-    places_ = places_of_keyframes();
-    add_planes();
-    std::vector<double> points, lines, axes;
-    std::vector<LandmarkColour> point_colours, line_colours;
-    Witnesses of_points, of_lines;
-    for (std::size_t i = 0; i < map.points.size(); ++i) {
-      if (!map.points[i].alive) continue;
-      append(points, map.points[i].position);
-      point_colours.push_back(colour_at(run_.colours.points, i));
-      add_witnesses(map.points[i], of_points);
-    }
-    for (std::size_t i = 0; i < map.lines.size(); ++i) {
-      const auto& line = map.lines[i];
-      if (!line.alive) continue;
-      const auto [start, end] = seen_part(map, line);
-      if (!start.allFinite() || !end.allFinite()) continue;
-      append(lines, start);
-      append(lines, end);
-      axes.push_back(axis_in_frame(line.axis));
-      line_colours.push_back(colour_at(run_.colours.lines, i));
-      add_witnesses(line, of_lines);
-    }
-    data_["points"] = floats(points);
-    data_["point_colours"] = colours_json(point_colours);
-    data_["point_witnesses"] = of_points.json();
-    data_["lines"] = {{"ends", floats(lines)},
-                      {"axes", packed<std::int8_t>("i8", axes)},
-                      {"colours", colours_json(line_colours)},
-                      {"witnesses", of_lines.json()}};
-    data_["coloured"] = run_.colours.any();
-  }
-
-  // Each as the rectangle that its members cover.
-  void add_planes() {
-    std::vector<PlaneExtent<double>> extents;
-    gather_extents(run_.map, extents);
-    std::vector<double> corners, axes;
-    shown_planes_.assign(extents.size(), -1);
-    for (std::size_t p = 0; p < extents.size(); ++p) {
-      const PlaneLandmark<double>& plane = run_.map.planes[p];
-      if (!plane.alive || extents[p].places == 0) continue;
-      shown_planes_[p] = static_cast<double>(axes.size());
-      for (const Vec3<double>& corner : extents[p].corners(plane.plane)) append(corners, corner);
-      axes.push_back(axis_in_frame(plane.axis));
-    }
-    data_["planes"] = {{"corners", floats(corners)}, {"axes", packed<std::int8_t>("i8", axes)}};
   }
 
   // Those of `--dense`, in place of the rectangles.
@@ -275,30 +154,16 @@ class DataMaker {
     const auto alignment = find_alignment(run_.metrics);
     if (!alignment) return;
     const Sim3<double>& truth_from_map = alignment->truth_from_estimate;
-    std::vector<double> path, stamps;
-    for (const io::StampedPose& pose : io::aligned(run_.truth, truth_from_map.inverse())) {
-      append(path, pose.world_from_cam.translation);
-      stamps.push_back(pose.stamp);
-    }
-    data_["truth"] = {{"positions", floats(path)}, {"stamps", packed<double>("f64", stamps)}};
+    data_["truth"] = truth_data(io::aligned(run_.truth, truth_from_map.inverse()));
     const io::PairedPoses paired = io::pair_poses(run_.truth, run_.trajectory, alignment->max_difference);
     const std::vector<double> distances = io::position_errors(paired, truth_from_map);
     const std::vector<double> angles = io::rotation_errors(paired, io::rotation_offset(paired));
-    std::vector<double> position(run_.frames.rows(), kNone64), rotation = position;
-    for (std::size_t i = 0; i < paired.estimate.size(); ++i) {
-      const auto row = row_of(paired.estimate[i].stamp);
-      if (!row) continue;
-      position[*row] = distances[i];
-      rotation[*row] = degrees(angles[i]);
-    }
-    data_["errors"] = {{"position_m", floats(position)}, {"rotation_deg", floats(rotation)}};
+    data_["errors"] = error_data(rows_, paired.estimate, distances, angles);
     data_["metres_per_unit"] = truth_from_map.scale;
   }
 
   RunFolder& run_;
-  std::map<double, std::size_t> row_of_;
-  std::vector<std::optional<std::size_t>> places_;  // of the map's keyframes in the list of the run's
-  std::vector<double> shown_planes_;                // place of each plane among those that are shown, or -1
+  FrameRows rows_;
   Json data_;
 };
 
