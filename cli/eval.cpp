@@ -12,16 +12,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/eval/eval_figure.hpp"
+#include "cli/eval/eval_input.hpp"
 #include "cli/results/eval_report.hpp"
-#include "cli/results/image_names.hpp"
-#include "cli/results/result_set.hpp"
-#include "cli/results/truth_source.hpp"
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
-#include "sslam/io/evaluation/same_clock.hpp"
-#include "sslam/io/evaluation/time_offset.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 
 namespace sslam::cli {
@@ -31,19 +27,6 @@ const std::map<std::string, io::Alignment> kAlignmentNames{
     {"sim3", io::Alignment::kSim3}, {"se3", io::Alignment::kSe3}, {"none", io::Alignment::kNone}};
 const std::map<std::string, FileAxes> kAxesNames{
     {"auto", FileAxes::kAuto}, {"y-down", FileAxes::kYDown}, {"y-up", FileAxes::kYUp}};
-
-struct EvalSettings {
-  std::string truth;
-  std::vector<std::string> estimates;
-  std::string times;         // of files without stamps; empty: looked for beside them
-  double offset = 0;         // added to the stamps of the estimates
-  bool find_offset = false;  // and what is found for each of them
-  io::EvaluationOptions options;
-  std::vector<std::string> deltas;
-  FileAxes axes = FileAxes::kAuto;
-  std::string json;
-  std::string plot;
-};
 
 // "30f": 30 frames; "1s" or "1": one second.
 std::optional<io::Delta> parse_delta(std::string text) {
@@ -59,88 +42,13 @@ std::optional<io::Delta> parse_delta(std::string text) {
   return delta;
 }
 
-// Stamps that are too small to show their unit show it beside the others.
-void bring_to_clock(const io::Trajectory& reference, io::Trajectory& poses, const std::string& file,
-                    double max_difference, io::Warnings& warnings) {
-  const io::StampUnit unit =
-      io::unit_on_clock(io::stamps_of(reference), io::stamps_of(poses), max_difference);
-  if (unit.is_seconds()) return;
-  for (io::StampedPose& pose : poses) pose.stamp /= unit.per_second;
-  warnings.push_back(file + ": " + io::unit_note(unit));
-}
-
-// What the estimates are compared with: poses with stamps, or with the names of images.
-struct Reference {
-  TruthSource source;
-  std::optional<NamedPoses> named;
-};
-
-Reference load_reference(const EvalSettings& settings) {
-  Reference reference;
-  settle_results(settings.truth);
-  reference.named = find_named_poses(settings.truth);
-  if (!reference.named) reference.source = load_truth(settings.truth, settings.axes, settings.times);
-  return reference;
-}
-
-// Throws Error when one has stamps and the other has none.
-io::Trajectory take_estimate(const std::string& file, const EvalSettings& settings, const TruthSource& truth,
-                             io::Warnings& warnings) {
-  settle_results(file);
-  io::PoseFile estimate = load_estimate(file, warnings, settings.times);
-  if (estimate.counted != truth.counted) {
-    throw Error(
-        (truth.counted ? settings.truth : file) +
-        ": its poses have no stamps; put their times into times.txt beside it or name them with --times");
-  }
-  if (estimate.counted && estimate.trajectory.size() + estimate.no_pose < truth.trajectory.size()) {
-    warnings.push_back(file +
-                       ": has fewer rows than the ground truth, and neither has stamps: rows are compared "
-                       "with those of the same number");
-  }
-  return std::move(estimate.trajectory);
-}
-
-struct Compared {
-  io::Trajectory truth, estimate;
-};
-
-// Both with stamps of one clock, as far as names, units and what was asked for tell.
-Compared take_both(const std::string& file, const EvalSettings& settings, const Reference& reference,
-                   io::Warnings& warnings) {
-  Compared both;
-  const std::optional<NamedPoses> named = find_named_poses(file);
-  if (reference.named) {
-    const NameClock clock = named ? clock_of_names(*reference.named) : image_clock(file);
-    both.truth = stamped_poses(*reference.named, clock, settings.truth, warnings);
-    TruthSource stamped;
-    both.estimate = named ? stamped_poses(*named, clock, file, warnings)
-                          : take_estimate(file, settings, stamped, warnings);
-  } else {
-    both.truth = reference.source.trajectory;
-    both.estimate = named ? stamped_poses(*named, image_clock(settings.truth), file, warnings)
-                          : take_estimate(file, settings, reference.source, warnings);
-  }
-  for (io::StampedPose& pose : both.estimate) pose.stamp += settings.offset;
-  return both;
-}
-
-// Brings the estimate to the clock of the truth. Throws Error where the motions do not tell the offset.
-io::TimeOffset bring_by_motion(const std::string& file, Compared& both) {
-  const io::TimeOffset found = io::find_time_offset(both.truth, both.estimate);
-  if (!found.problem.empty())
-    throw Error(file + ": --find-offset: " + found.problem + "; give the offset with --offset");
-  for (io::StampedPose& pose : both.estimate) pose.stamp += found.offset;
-  return found;
-}
-
 // What --plot draws.
 struct Plotted {
   io::Trajectory truth;
   std::vector<PlottedEstimate> estimates;
 };
 
-void note_for_plot(const std::string& file, const Compared& both, const io::Evaluation& evaluation,
+void note_for_plot(const std::string& file, const EvalPair& both, const io::Evaluation& evaluation,
                    Plotted& plotted) {
   const io::PairedPoses paired = io::pair_poses(both.truth, both.estimate, evaluation.options.max_difference);
   if (plotted.estimates.empty()) plotted.truth = both.truth;
@@ -151,16 +59,10 @@ void note_for_plot(const std::string& file, const Compared& both, const io::Eval
 }
 
 nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& settings,
-                                const Reference& reference, Plotted& plotted) {
-  io::Warnings warnings;
-  Compared both = take_both(file, settings, reference, warnings);
-  io::Trajectory &estimate = both.estimate, &against = both.truth;
-  bring_to_clock(against, estimate, file, settings.options.max_difference, warnings);
-  bring_to_clock(estimate, against, settings.truth, settings.options.max_difference, warnings);
-  print_warnings(warnings);
-  std::optional<io::TimeOffset> offset;
-  if (settings.find_offset) offset = bring_by_motion(file, both);
-  const io::Evaluation evaluation = io::evaluate(against, estimate, settings.options);
+                                const EvalReference& reference, Plotted& plotted) {
+  const EvalPair both = load_pair(file, settings, reference);
+  const std::optional<io::TimeOffset>& offset = both.offset;
+  const io::Evaluation evaluation = io::evaluate(both.truth, both.estimate, settings.options);
   if (settings.estimates.size() > 1) std::printf("%s\n", file.c_str());
   if (offset)
     std::printf("time offset      %+.4f, found; likeness of the motions %.3f\n", offset->offset,
@@ -175,7 +77,7 @@ nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& set
 }
 
 void run_eval(EvalSettings settings) {
-  const Reference reference = load_reference(settings);
+  const EvalReference reference = load_reference(settings);
   const TruthSource& truth = reference.source;
   print_warnings(truth.warnings);
   if (truth.mirrored) print_note(settings.truth + ": poses with y up, mirrored to y down (see --axes)");

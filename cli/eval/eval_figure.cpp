@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cli/eval/plot_panel.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 #include "sslam/io/plots/plot_view.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 using io::svg::Range;
 
-constexpr FigureColour kInk{30, 34, 42}, kQuiet{98, 106, 118}, kGrid{226, 229, 234}, kTruth{150, 150, 150};
+constexpr FigureColour kTruth{150, 150, 150};
 constexpr std::array<FigureColour, 8> kInks{{{53, 87, 214},
                                              {214, 69, 65},
                                              {18, 140, 140},
@@ -23,95 +24,6 @@ constexpr std::array<FigureColour, 8> kInks{{{53, 87, 214},
                                              {31, 157, 87},
                                              {194, 56, 143},
                                              {107, 91, 75}}};
-constexpr double kTextSize = 12;
-
-struct Curve {
-  std::vector<double> x, y;
-  FigureColour colour{};
-  double width = 1.2;
-  double max_gap = 0;   // in x; a longer one breaks it; 0: none does
-  double max_step = 0;  // in y, the same
-};
-
-void extend(Range& range, const std::vector<double>& values) {
-  for (const double value : values) {
-    range.low = std::min(range.low, value);
-    range.high = std::max(range.high, value);
-  }
-}
-
-constexpr Range kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-// Something of a size, whatever was seen.
-Range widened(Range range, double share) {
-  if (!(range.low <= range.high)) return {0, 1};
-  const double more = std::max({share * range.size(), 1e-9 * std::abs(range.high), 1e-12});
-  return {range.low - more, range.high + more};
-}
-
-// Axes with curves in a part of the figure.
-class Panel {
- public:
-  Panel(Figure& figure, double left, double top, double width, double height)
-      : figure_(figure), left_(left), top_(top), width_(width), height_(height) {}
-
-  void draw(const std::string& title, const std::vector<Curve>& curves, Range x, Range y) {
-    x_ = x;
-    y_ = y;
-    text({left_, top_ - 7}, title, FigureAnchor::kStart, kInk);
-    draw_ticks();
-    for (const Curve& curve : curves) draw_curve(curve);
-  }
-
- private:
-  [[nodiscard]] Vec2<double> at(double x, double y) const {
-    return {left_ + width_ * (x - x_.low) / x_.size(), top_ + height_ * (1 - (y - y_.low) / y_.size())};
-  }
-
-  void text(const Vec2<double>& place, std::string words, FigureAnchor anchor, const FigureColour& colour) {
-    figure_.texts.push_back({place, std::move(words), kTextSize, anchor, colour});
-  }
-
-  // Whole multiples of the step, so that zero prints as zero.
-  template <class Draw>
-  static void for_ticks(const Range& range, double wanted, Draw draw) {
-    const double step = io::svg::tick_step(range.size(), wanted);
-    const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
-    for (double k = std::ceil(range.low / step); k * step <= range.high; ++k)
-      draw(k * step, io::svg::format("%.*f", decimals, k * step + 0.0));
-  }
-
-  void draw_ticks() {
-    for_ticks(x_, width_ / 80, [&](double value, const std::string& number) {
-      figure_.lines.push_back({{at(value, y_.low), at(value, y_.high)}, kGrid, 1});
-      text(at(value, y_.low) + Vec2<double>(0, 15), number, FigureAnchor::kMiddle, kQuiet);
-    });
-    for_ticks(y_, height_ / 25, [&](double value, const std::string& number) {
-      figure_.lines.push_back({{at(x_.low, value), at(x_.high, value)}, kGrid, 1});
-      text(at(x_.low, value) + Vec2<double>(-6, 4), number, FigureAnchor::kEnd, kQuiet);
-    });
-  }
-
-  void draw_curve(const Curve& curve) {
-    FigureLine line{{}, curve.colour, curve.width};
-    const auto end = [&] {
-      if (line.points.size() > 1) figure_.lines.push_back(line);
-      line.points.clear();
-    };
-    for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      const bool pause = i > 0 && curve.max_gap > 0 && curve.x[i] - curve.x[i - 1] > curve.max_gap;
-      const bool jump = i > 0 && curve.max_step > 0 && std::abs(curve.y[i] - curve.y[i - 1]) > curve.max_step;
-      if (pause || jump) end();
-      line.points.push_back(at(curve.x[i], curve.y[i]));
-    }
-    end();
-  }
-
-  Figure& figure_;
-  double left_, top_, width_, height_;
-  Range x_, y_;
-};
-
 // Roll, pitch and yaw about x, y and z: R = Rz Ry Rx; degrees.
 Vec3<double> angles_of(const SO3<double>& rotation) {
   const Mat3<double> r = rotation.matrix();
@@ -164,10 +76,10 @@ class EvalPage {
 
   // A curve of one number of each pose, for the truth and each estimate.
   template <class Number>
-  [[nodiscard]] std::vector<Curve> curves_of(Number number, double max_step) const {
-    std::vector<Curve> curves;
+  [[nodiscard]] std::vector<PlotCurve> curves_of(Number number, double max_step) const {
+    std::vector<PlotCurve> curves;
     const auto add = [&](const io::Trajectory& poses, const FigureColour& colour, double width) {
-      Curve curve{{}, {}, colour, width, io::ordinary_gap(poses) * per_stamp_, max_step};
+      PlotCurve curve{{}, {}, colour, width, io::ordinary_gap(poses) * per_stamp_, max_step};
       for (const io::StampedPose& pose : poses) {
         curve.x.push_back(seconds(pose.stamp));
         curve.y.push_back(number(pose.world_from_cam));
@@ -179,8 +91,8 @@ class EvalPage {
     return curves;
   }
 
-  static Range range_of(const std::vector<Curve>& curves, Range range = kNothing) {
-    for (const Curve& curve : curves) extend(range, curve.y);
+  static Range range_of(const std::vector<PlotCurve>& curves, Range range = kNoRange) {
+    for (const PlotCurve& curve : curves) extend(range, curve.y);
     return range;
   }
 
@@ -193,7 +105,7 @@ class EvalPage {
     const auto add = [&](const std::string& name, const FigureColour& colour) {
       figure_.lines.push_back({{{x, 26}, {x + 26, 26}}, colour, 2.5});
       const std::string shown = ending_of(name, most);
-      figure_.texts.push_back({{x + 32, 30}, shown, 13, FigureAnchor::kStart, kInk});
+      figure_.texts.push_back({{x + 32, 30}, shown, 13, FigureAnchor::kStart, kFigureInk});
       x += kSample + kLetter * static_cast<double>(shown.size());
     };
     add("ground truth", kTruth);
@@ -204,10 +116,10 @@ class EvalPage {
   void draw_paths() {
     constexpr double kHeight = 420;
     const io::svg::View view = io::svg::fit(io::positions_of(truth_), {});
-    std::vector<Curve> curves;
+    std::vector<PlotCurve> curves;
     const auto add = [&](const io::Trajectory& poses, const FigureColour& colour, double width) {
       const double gap = io::ordinary_gap(poses);
-      Curve curve{{}, {}, colour, width};
+      PlotCurve curve{{}, {}, colour, width};
       for (std::size_t i = 0; i < poses.size(); ++i) {
         if (i > 0 && gap > 0 && poses[i].stamp - poses[i - 1].stamp > gap) {
           curves.push_back(curve);
@@ -221,8 +133,8 @@ class EvalPage {
     };
     add(truth_, kTruth, 2.2);
     for (std::size_t i = 0; i < estimates_.size(); ++i) add(estimates_[i].poses, ink(i), 1.2);
-    Range x = kNothing, y = kNothing;
-    for (const Curve& curve : curves) {
+    Range x = kNoRange, y = kNoRange;
+    for (const PlotCurve& curve : curves) {
       extend(x, curve.x);
       extend(y, curve.y);
     }
@@ -232,24 +144,25 @@ class EvalPage {
     x = widened(x, (scale * kWidth / x.size() - 1) / 2);
     y = widened(y, (scale * kHeight / y.size() - 1) / 2);
     constexpr char kNames[] = "xyz";
-    Panel(figure_, kLeft, kTop, kWidth, kHeight)
-        .draw(std::string("path, ") + kNames[view.up] + " over " + kNames[view.across] + ", m", curves, x, y);
+    draw_panel(figure_, {kLeft, kTop, kWidth, kHeight},
+               std::string("path, ") + kNames[view.up] + " over " + kNames[view.across] + ", m", curves, x,
+               y);
   }
 
   void draw_errors() {
-    std::vector<Curve> position, rotation;
+    std::vector<PlotCurve> position, rotation;
     for (std::size_t i = 0; i < estimates_.size(); ++i) {
       const PlottedEstimate& one = estimates_[i];
-      Curve curve{{}, one.position_errors, ink(i), 1.2, io::ordinary_gap(one.poses) * per_stamp_};
+      PlotCurve curve{{}, one.position_errors, ink(i), 1.2, io::ordinary_gap(one.poses) * per_stamp_};
       for (const double stamp : one.error_stamps) curve.x.push_back(seconds(stamp));
       position.push_back(curve);
       for (std::size_t k = 0; k < curve.y.size(); ++k) curve.y[k] = degrees(one.rotation_errors[k]);
       rotation.push_back(std::move(curve));
     }
-    const auto draw = [&](double top, const char* title, const std::vector<Curve>& curves) {
+    const auto draw = [&](double top, const char* title, const std::vector<PlotCurve>& curves) {
       Range range = widened(range_of(curves, {0, 0}), 0.05);
       range.low = 0;
-      Panel(figure_, kLeft, top, kWidth, 120).draw(title, curves, time_, range);
+      draw_panel(figure_, {kLeft, top, kWidth, 120}, title, curves, time_, range);
     };
     draw(kTop + 480, "position error, m, over seconds", position);
     draw(kTop + 660, "rotation error after a constant offset, degrees, over seconds", rotation);
@@ -260,9 +173,9 @@ class EvalPage {
     constexpr double kHeight = 88, kStep = 136;
     constexpr char kNames[] = "xyz";
     const char* const kAngles[] = {"roll", "pitch", "yaw"};
-    const auto draw = [&](int row, const std::string& title, const std::vector<Curve>& curves) {
-      Panel(figure_, kRight, kTop + row * kStep, kWidth, kHeight)
-          .draw(title, curves, time_, widened(range_of(curves), 0.08));
+    const auto draw = [&](int row, const std::string& title, const std::vector<PlotCurve>& curves) {
+      draw_panel(figure_, {kRight, kTop + row * kStep, kWidth, kHeight}, title, curves, time_,
+                 widened(range_of(curves), 0.08));
     };
     draw(k, std::string(1, kNames[k]) + ", m",
          curves_of([k](const SE3<double>& pose) { return pose.translation[k]; }, 0));
