@@ -7,16 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "cli/dense/chart_layout.hpp"
 #include "sslam/dense/dense_model.hpp"
 
 namespace sslam::cli {
-
-// A rectangle of the atlas that shows a rectangle of a plane.
-struct Chart {
-  std::size_t plane = 0, polygon = 0;
-  cv::Rect place;       // in the atlas
-  Vec2<double> origin;  // in the plane's coordinates: of the centre of its first texel
-};
 
 struct Atlas {
   cv::Mat_<cv::Vec3b> image;  // BGR
