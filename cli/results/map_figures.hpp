@@ -22,8 +22,7 @@ template <class Landmarks>
   for (std::size_t k = first; k < map.keyframes.size(); ++k)
     if (const auto& keyframe = map.keyframes[k]; keyframe.alive())
       poses.push_back({keyframe.frame.stamp, keyframe.cam_from_world.inverse()});
-  const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };
-  std::stable_sort(poses.begin(), poses.end(), earlier);
+  io::sort_by_stamp(poses);
   return poses;
 }
 

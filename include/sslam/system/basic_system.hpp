@@ -2,7 +2,6 @@
 // The members of BasicSystem, for who brings a front end of his own; src/system.cpp compiles those of System.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,28 +9,14 @@
 #include "sslam/io/maps/map_file.hpp"
 #include "sslam/opencv/camera/working_size.hpp"
 #include "sslam/system/parameters.hpp"
+#include "sslam/system/settings_check.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam {
 
 template <class Frontend>
-void BasicSystem<Frontend>::check(const Settings& settings) const {
-  const Camera<double>& camera = settings.camera;
-  const auto& k = camera.pinhole;
-  if (camera.width <= 0 || camera.height <= 0)
-    throw SettingsError("camera", "the width and height of its images are missing");
-  const bool finite =
-      std::isfinite(k.fx) && std::isfinite(k.fy) && std::isfinite(k.cx) && std::isfinite(k.cy);
-  if (!finite || !(k.fx > 0) || !(k.fy > 0))
-    throw SettingsError("camera", "fx and fy must be positive and finite, cx and cy finite");
-  if (settings.longest_side < 0) throw SettingsError("longest_side", "a number of pixels, or 0 for any size");
-  if (settings.normals.from_depth() && !(settings.depth_factor > 0 && std::isfinite(settings.depth_factor)))
-    throw SettingsError("depth_factor", "normals from depth need the value of one metre, above 0");
-}
-
-template <class Frontend>
 BasicSystem<Frontend>::BasicSystem(Settings settings) : settings_(std::move(settings)) {
-  check(settings_);
+  check_settings(settings_);
   try {
     preset_ = find_preset(settings_.preset);
   } catch (const Error& error) {
@@ -222,8 +207,7 @@ io::Trajectory BasicSystem<Frontend>::trajectory() const {
   poses.reserve(log.entries().size());
   for (const auto& entry : log.entries())
     poses.push_back({entry.stamp, TrajectoryLog<double>::pose(engine_->map(), entry).inverse()});
-  const auto earlier = [](const io::StampedPose& a, const io::StampedPose& b) { return a.stamp < b.stamp; };
-  std::stable_sort(poses.begin(), poses.end(), earlier);
+  io::sort_by_stamp(poses);
   return poses;
 }
 

@@ -109,7 +109,6 @@ class BasicSystem {
   [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }  // taken in so far
 
  private:
-  void check(const Settings& settings) const;
   void set_parameters();
   void tell(const FrameReport& report, const Extraction& extraction);
   void ask_for_normals(Extraction& extraction, FrameReport& report);

@@ -117,8 +117,7 @@ inline void fill_truth(Dataset& dataset, BagRecording& recording, const std::str
     poses = &found->second;
   }
   if (poses == nullptr) return;
-  const auto earlier = [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; };
-  std::stable_sort(poses->begin(), poses->end(), earlier);
+  sort_by_stamp(*poses);
   attach_ground_truth(dataset, std::move(*poses), dataset.root.string() + " " + source->name);
 }
 

@@ -68,14 +68,22 @@ inline void mirror_y(Trajectory& trajectory) {
   for (StampedPose& pose : trajectory) pose.world_from_cam = mirror_y(pose.world_from_cam);
 }
 
+[[nodiscard]] inline bool is_earlier(const StampedPose& a, const StampedPose& b) noexcept {
+  return a.stamp < b.stamp;
+}
+
+// Of equal stamps, in the order in which they came.
+inline void sort_by_stamp(Trajectory& trajectory) {
+  std::stable_sort(trajectory.begin(), trajectory.end(), is_earlier);
+}
+
 // Sorts by stamp and keeps the first of each run of equal stamps; says so when there was anything to do.
 inline void order_by_stamp(Trajectory& trajectory, const std::filesystem::path& source, Warnings& warnings) {
-  const auto earlier = [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; };
-  const auto out_of_order = std::is_sorted_until(trajectory.begin(), trajectory.end(), earlier);
+  const auto out_of_order = std::is_sorted_until(trajectory.begin(), trajectory.end(), is_earlier);
   if (out_of_order != trajectory.end()) {
     warnings.push_back(source.string() + ": stamps go backwards at " + exact_decimal(out_of_order->stamp) +
                        ": poses sorted by stamp");
-    std::stable_sort(trajectory.begin(), trajectory.end(), earlier);
+    sort_by_stamp(trajectory);
   }
   const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
   const std::size_t before = trajectory.size();
