@@ -121,7 +121,7 @@ void write_run(const RunContext& context, const RunOutcome& outcome, const fs::p
   Json metrics = metrics_json(context, outcome, live.size(), evaluations);
   metrics["files"] = checksums_of(out);
   write_json((out / "metrics.json").string(), metrics);
-  print_summary(context, outcome, metrics, evaluations);
+  print_run_summary(context, outcome, metrics, evaluations);
 }
 
 }  // namespace sslam::cli

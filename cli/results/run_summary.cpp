@@ -37,8 +37,8 @@ void print_scale(const RunOutcome& outcome, const RunEvaluations& evaluations) {
 
 }  // namespace
 
-void print_summary(const RunContext& context, const RunOutcome& outcome,
-                   const nlohmann::ordered_json& metrics, const RunEvaluations& evaluations) {
+void print_run_summary(const RunContext& context, const RunOutcome& outcome,
+                       const nlohmann::ordered_json& metrics, const RunEvaluations& evaluations) {
   const Json& times = metrics["times"];
   const std::size_t total = context.dataset.frames.size();
   std::printf("tracked          %zu of %zu frames (%.1f %%), %zu keyframes, %zu points, %zu lines\n",

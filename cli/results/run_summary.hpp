@@ -9,7 +9,7 @@
 namespace sslam::cli {
 
 // `metrics`: as metrics_json has them.
-void print_summary(const RunContext& context, const RunOutcome& outcome,
-                   const nlohmann::ordered_json& metrics, const RunEvaluations& evaluations);
+void print_run_summary(const RunContext& context, const RunOutcome& outcome,
+                       const nlohmann::ordered_json& metrics, const RunEvaluations& evaluations);
 
 }  // namespace sslam::cli
