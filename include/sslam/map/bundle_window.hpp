@@ -62,11 +62,7 @@ class BundleWindow {
 
   // A keyframe and its most covisible neighbours move, those around them are held.
   void gather_local(const Map<S>& map, KeyframeId centre, const BundleWindowOptions<S>& options) {
-    keyframes.assign(1, centre);
-    for (const Neighbour& n : map.keyframes[map.index(centre)].neighbours) {
-      if (keyframes.size() >= options.max_free) break;
-      keyframes.push_back(n.keyframe);
-    }
+    take_with_neighbours(map.keyframes[map.index(centre)], options.max_free, keyframes);
     build(map, options);
   }
 
@@ -148,39 +144,45 @@ class BundleWindow {
     graph.views.push_back(out);
   }
 
+  // An edge for each observation from the window, as make(frame, feature, view) gives it. False, and no edge,
+  // where there are fewer than two.
+  template <class Edge, class Make>
+  [[nodiscard]] bool add_edges(const Map<S>& map, const LandmarkCommon& landmark, std::vector<Edge>& edges,
+                               Make make) {
+    const auto first = edges.size();
+    for (const Observation& o : landmark.observations) {
+      const std::int32_t view = view_of_[map.index(o.keyframe)];
+      if (view == kNone) continue;
+      edges.push_back(make(map.keyframes[map.index(o.keyframe)].frame, map.index(o.feature), view));
+    }
+    if (edges.size() - first >= 2) return true;
+    edges.resize(first);
+    return false;
+  }
+
   void add_points(const Map<S>& map) {
+    const auto edge = [](const Frame<S>& frame, std::size_t feature, std::int32_t view) {
+      const PointFeature<S>& f = frame.points[feature];
+      return PointEdge<S>{f.pixel, 1 / f.sigma, view};
+    };
     std::erase_if(points, [&](LandmarkId id) {
       const PointLandmark<S>& landmark = map.points[map.index(id)];
       const auto first = graph.point_edges.size();
-      for (const Observation& o : landmark.observations) {
-        const std::int32_t view = view_of_[map.index(o.keyframe)];
-        if (view == kNone) continue;
-        const PointFeature<S>& f = map.keyframes[map.index(o.keyframe)].frame.points[map.index(o.feature)];
-        graph.point_edges.push_back({f.pixel, 1 / f.sigma, view});
-      }
-      if (graph.point_edges.size() - first < 2) {
-        graph.point_edges.resize(first);
-        return true;
-      }
+      if (!add_edges(map, landmark, graph.point_edges, edge)) return true;
       graph.points.push_back({landmark.position, to_int(first), to_int(graph.point_edges.size()), kNoPlane});
       return false;
     });
   }
 
   void add_lines(const Map<S>& map, const BundleWindowOptions<S>& options) {
+    const auto edge = [](const Frame<S>& frame, std::size_t feature, std::int32_t view) {
+      const LineFeature<S>& f = frame.lines[feature];
+      return LineEdge<S>{f.segment, 1 / f.sigma, view};
+    };
     std::erase_if(lines, [&](LandmarkId id) {
       const LineLandmark<S>& landmark = map.lines[map.index(id)];
       const auto first = graph.line_edges.size();
-      for (const Observation& o : landmark.observations) {
-        const std::int32_t view = view_of_[map.index(o.keyframe)];
-        if (view == kNone) continue;
-        const LineFeature<S>& f = map.keyframes[map.index(o.keyframe)].frame.lines[map.index(o.feature)];
-        graph.line_edges.push_back({f.segment, 1 / f.sigma, view});
-      }
-      if (graph.line_edges.size() - first < 2) {
-        graph.line_edges.resize(first);
-        return true;
-      }
+      if (!add_edges(map, landmark, graph.line_edges, edge)) return true;
       graph.lines.emplace_back();
       graph.lines.back().line = landmark.line;
       graph.lines.back().first_edge = to_int(first);

@@ -20,6 +20,16 @@ inline void set_neighbour(std::vector<Neighbour>& neighbours, Neighbour neighbou
                    [](const Neighbour& a, const Neighbour& b) { return a.shared > b.shared; });
 }
 
+// The keyframe and those that share most with it, at most `most` in all.
+template <Scalar S>
+void take_with_neighbours(const Keyframe<S>& keyframe, std::size_t most, std::vector<KeyframeId>& taken) {
+  taken.assign(1, keyframe.id);
+  for (const Neighbour& n : keyframe.neighbours) {
+    if (taken.size() >= most) break;
+    taken.push_back(n.keyframe);
+  }
+}
+
 // Counts anew what one keyframe shares with all others. What that costs grows with what it sees, not with the
 // map.
 class Covisibility {

@@ -37,11 +37,7 @@ class LocalMap {
 
   // The given keyframe and its neighbours.
   void gather_around(const Map<S>& map, KeyframeId centre, std::size_t max_keyframes) {
-    keyframes.assign(1, centre);
-    for (const Neighbour& n : map.keyframes[map.index(centre)].neighbours) {
-      if (keyframes.size() >= max_keyframes) break;
-      keyframes.push_back(n.keyframe);
-    }
+    take_with_neighbours(map.keyframes[map.index(centre)], max_keyframes, keyframes);
     collect(map);
   }
 

@@ -63,26 +63,28 @@ class BundleSolver {
 
   // Marks the edges that can be evaluated at the start and returns how many they are.
   std::size_t choose_edges(const BundleGraph<S>& graph) {
-    active_.points.assign(graph.point_edges.size(), 0);
-    active_.lines.assign(graph.line_edges.size(), 0);
+    const auto sees_point = [](const BundleView<S>& view, const BundlePoint<S>& point,
+                               const PointEdge<S>& edge) {
+      PointReprojection<S> seen;
+      return point_reprojection(view.pinhole, view.cam_from_world, point.position, edge.pixel, seen);
+    };
+    const auto sees_line = [](const BundleView<S>& view, const BundleLine<S>& line, const LineEdge<S>& edge) {
+      LineReprojection<S> seen;
+      return line_reprojection(view.pinhole, view.cam_from_world, line.line, edge.segment, seen);
+    };
+    return choose(graph.views, graph.points, graph.point_edges, sees_point, active_.points) +
+           choose(graph.views, graph.lines, graph.line_edges, sees_line, active_.lines);
+  }
+
+  template <class Landmarks, class Edges, class Sees>
+  static std::size_t choose(const std::vector<BundleView<S>>& views, const Landmarks& landmarks,
+                            const Edges& edges, Sees sees, std::vector<std::uint8_t>& active) {
+    active.assign(edges.size(), 0);
     std::size_t count = 0;
-    for (const BundlePoint<S>& point : graph.points)
-      for (auto e = index(point.first_edge); e < index(point.last_edge); ++e) {
-        const PointEdge<S>& edge = graph.point_edges[e];
-        const BundleView<S>& view = graph.views[index(edge.view)];
-        PointReprojection<S> seen;
-        active_.points[e] =
-            point_reprojection(view.pinhole, view.cam_from_world, point.position, edge.pixel, seen);
-        count += active_.points[e];
-      }
-    for (const BundleLine<S>& line : graph.lines)
-      for (auto e = index(line.first_edge); e < index(line.last_edge); ++e) {
-        const LineEdge<S>& edge = graph.line_edges[e];
-        const BundleView<S>& view = graph.views[index(edge.view)];
-        LineReprojection<S> seen;
-        active_.lines[e] =
-            line_reprojection(view.pinhole, view.cam_from_world, line.line, edge.segment, seen);
-        count += active_.lines[e];
+    for (const auto& landmark : landmarks)
+      for (auto e = index(landmark.first_edge); e < index(landmark.last_edge); ++e) {
+        active[e] = sees(views[index(edges[e].view)], landmark, edges[e]);
+        count += active[e];
       }
     return count;
   }

@@ -65,12 +65,7 @@ class FeatureFallback {
     SE3<S> pose = frame.cam_from_world;
     const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                         options.solver, matches_.point_inliers, matches_.line_inliers, prior);
-    if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-    const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, options.acceptance);
-    if (!estimate.ok()) return estimate;
-    matches_.drop_outliers(frame);
-    frame.cam_from_world = pose;
-    return estimate;
+    return settle_pose(summary, pose, options.acceptance, matches_, frame);
   }
 
   Correspondences<S> matches_;

@@ -108,12 +108,7 @@ PoseEstimate<S> LocalMapRefinement<S>::refine_uncounted(const Map<S>& map, const
   SE3<S> pose = frame.cam_from_world;
   const auto summary = refine_pose<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                       options.solver, matches_.point_inliers, matches_.line_inliers, prior);
-  if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-  const PoseEstimate<S> estimate = judge<S, 6>(matches_, pose, summary.information, accepts(prior));
-  if (!estimate.ok()) return estimate;
-  matches_.drop_outliers(frame);
-  frame.cam_from_world = pose;
-  return estimate;
+  return settle_pose(summary, pose, accepts(prior), matches_, frame);
 }
 static_assert(RefinementStage<LocalMapRefinement<double>, double>);
 

@@ -80,12 +80,7 @@ PoseEstimate<S> DecoupledTranslation<S>::translate(const Map<S>& map, const Rece
   SE3<S> pose = frame.cam_from_world;
   const auto summary = refine_translation<S>(frame.frame.pinhole, matches_.points, matches_.lines, pose,
                                              options.solver, matches_.point_inliers, matches_.line_inliers);
-  if (!usable(summary.status)) return {.reason = Reason::kNoConsensus};
-  const PoseEstimate<S> estimate = judge<S, 3>(matches_, pose, summary.information, options.acceptance);
-  if (!estimate.ok()) return estimate;
-  matches_.drop_outliers(frame);
-  frame.cam_from_world = pose;
-  return estimate;
+  return settle_pose(summary, pose, options.acceptance, matches_, frame);
 }
 static_assert(TranslationStage<DecoupledTranslation<double>, double>);
 

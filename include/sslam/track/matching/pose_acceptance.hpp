@@ -5,7 +5,9 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/geometry/spread.hpp"
 #include "sslam/solver/least_squares/positive_inverse.hpp"
+#include "sslam/solver/pose/pose_refinement.hpp"
 #include "sslam/track/contract/pose_estimate.hpp"
+#include "sslam/track/contract/tracked_frame.hpp"
 #include "sslam/track/matching/correspondences.hpp"
 
 namespace sslam {
@@ -50,6 +52,20 @@ template <Scalar S, int D>
   if (D == 6 && !(spread(0) < acceptance.max_rotation_sigma)) return estimate;
   if constexpr (D == 6) estimate.covariance = covariance;
   estimate.reason = Reason::kFine;
+  return estimate;
+}
+
+// A solved pose that is believed becomes the frame's, and the matches of its outliers go; otherwise the frame
+// stays as it is.
+template <Scalar S, int D>
+[[nodiscard]] PoseEstimate<S> settle_pose(const PoseSummary<S, D>& solved, const SE3<S>& cam_from_world,
+                                          const PoseAcceptance<S>& acceptance, Correspondences<S>& matches,
+                                          TrackedFrame<S>& frame) {
+  if (!usable(solved.status)) return {.reason = Reason::kNoConsensus};
+  const PoseEstimate<S> estimate = judge<S, D>(matches, cam_from_world, solved.information, acceptance);
+  if (!estimate.ok()) return estimate;
+  matches.drop_outliers(frame);
+  frame.cam_from_world = cam_from_world;
   return estimate;
 }
 
