@@ -3,8 +3,10 @@
 #pragma once
 
 #include "sslam/core/random.hpp"
+#include "sslam/geometry/camera.hpp"
 #include "sslam/geometry/line2.hpp"
 #include "sslam/geometry/line3.hpp"
+#include "sslam/geometry/se3.hpp"
 
 namespace sslam::testing {
 
