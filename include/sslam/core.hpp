@@ -47,6 +47,7 @@
 #include "sslam/geometry/so3.hpp"
 #include "sslam/geometry/sphere.hpp"
 #include "sslam/geometry/spread.hpp"
+#include "sslam/geometry/squareness.hpp"
 #include "sslam/image/brief_tests.hpp"
 #include "sslam/image/corner_refiner.hpp"
 #include "sslam/image/corner_spreader.hpp"

@@ -13,6 +13,7 @@
 #include "sslam/dense/dense_view.hpp"
 #include "sslam/dense/map_samples.hpp"
 #include "sslam/dense/plane_fit.hpp"
+#include "sslam/geometry/squareness.hpp"
 #include "sslam/map/plane_extent.hpp"
 #include "sslam/solver/modes/offset_modes.hpp"
 
@@ -24,12 +25,12 @@ struct CandidateOptions {
   std::size_t min_samples = 8;        // of a plane across an axis
   double min_contrast = 2.5;          // of its samples over what their surroundings make expect
   std::size_t min_free_samples = 24;  // of a plane in any direction
-  double min_spread = 0.05;         // standard deviation of the samples in the plane, where they spread least
-  double axis_tilt = radians(0.3);  // standard deviation of a wall against its axis
-  double max_tilt = radians(3.0);   // of a line against the plane that it lies on
-  std::size_t most = 60;            // planes
-  int tries = 400;                  // for each plane in any direction
-  double near = 0.5;                // how far apart three samples are that make one
+  double min_spread = 0.05;  // standard deviation of the samples in the plane, where they spread least
+  double axis_tilt = kWallTilt<double>;  // standard deviation of a wall against its axis
+  double max_tilt = radians(3.0);        // of a line against the plane that it lies on
+  std::size_t most = 60;                 // planes
+  int tries = 400;                       // for each plane in any direction
+  double near = 0.5;                     // how far apart three samples are that make one
 };
 
 struct PlaneCandidate {

@@ -10,6 +10,7 @@
 #include "sslam/core/parameter.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/geometry/so3.hpp"
+#include "sslam/geometry/squareness.hpp"
 
 namespace sslam {
 
@@ -26,13 +27,13 @@ struct ManhattanOptions {
   // How sure a plane's direction is: errors of its normals share this part of their variance, so that N of
   // them count as 1 / 0.3 at most, and no number of votes removes the floor.
   S normal_correlation = S(0.3);
-  S normal_floor = radians(S(0.3));
+  S normal_floor = kWallTilt<S>;
   S normal_votes = 40;           // against segments, all normals of a view count as so many independent votes
   std::size_t coarse_every = 8;  // while the kernel narrows, one block of normals in so many is read
 
   // Segments. The floor says how well real edges keep to their axis; the gate is there at first and halves in
   // every round. Both add to each segment's sigma.
-  S line_floor = radians(S(0.15));
+  S line_floor = kEdgeTilt<S>;
   S widest_line_gate = radians(S(4));
   S min_line_gain = S(8);  // for an axis to be seen by them: log-likelihood with it over that without
 

@@ -23,7 +23,9 @@ struct BundleWindowOptions {
   std::size_t max_held = 15;  // keyframes around them that see the same landmarks and stay where they are
   bool planes = true;         // tie points and lines to their planes
   bool manhattan = true;      // tie keyframe rotations and line directions to the Manhattan axes
-  S rotation_floor = radians(S(0.2));  // standard deviation that no Manhattan rotation falls below
+  // Standard deviation that no Manhattan rotation falls below; it comes on top of the squareness that the
+  // rotation's covariance has in it already.
+  S rotation_floor = radians(S(0.2));
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {

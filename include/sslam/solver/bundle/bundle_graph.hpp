@@ -114,14 +114,15 @@ struct BundleGraph {
 // in ten costs 15 %.
 template <Scalar S>
 struct BundleLosses {
-  S point = 3;                     // both coordinates together
-  S line = 3;                      // both endpoints together
-  S rotation = 2;                  // a Manhattan frame that was the wrong one
-  S axis = 2;                      // a line that does not follow its axis
-  S axis_sigma = radians(S(0.5));  // squareness of real walls and edges
-  S plane = 2;                     // a landmark that does not lie on its plane
-  S flatness = S(0.01);            // of real walls and of what hangs on them, over the scene depth
-  S scale_sigma = S(1e-3);         // of the held distance, as a part of it; it competes with nothing
+  S point = 3;     // both coordinates together
+  S line = 3;      // both endpoints together
+  S rotation = 2;  // a Manhattan frame that was the wrong one
+  S axis = 2;      // a line that does not follow its axis
+  // Of one wall or edge of the map off its axis; kWallTilt and kEdgeTilt say it of what one frame shows.
+  S axis_sigma = radians(S(0.5));
+  S plane = 2;              // a landmark that does not lie on its plane
+  S flatness = S(0.01);     // of real walls and of what hangs on them, over the scene depth
+  S scale_sigma = S(1e-3);  // of the held distance, as a part of it; it competes with nothing
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -134,7 +135,7 @@ struct BundleLosses {
     visit("axis", self.axis, Unit::kNumber, 0.01, 1000,
           "standard deviations at which a line off its axis begins to let go");
     visit("axis_sigma", self.axis_sigma, Unit::kDegrees, 0.001, 45,
-          "how far walls and edges stand from the axes, standard deviation");
+          "how far one wall or edge of the map stands off its axis, standard deviation");
     visit("plane", self.plane, Unit::kNumber, 0.01, 1000,
           "standard deviations at which a landmark off its plane begins to let go");
     visit("scale_sigma", self.scale_sigma, Unit::kNumber, 1e-9, 1,

@@ -17,13 +17,15 @@ namespace sslam {
 template <Scalar S>
 struct RotationOptions {
   SearchOptions<S> search;  // of a frame that is not known yet; its `rotation` options serve every later one
-  S squareness = radians(S(0.1));  // how far walls and edges stand from right angles: floor of every sigma
-  S max_sigma = radians(S(1.5));   // largest standard deviation, about any axis, of a trusted rotation
+  // How far the axes that a frame shows are off, all walls and edges together: floor of every sigma. One
+  // alone is off by more (squareness.hpp).
+  S squareness = radians(S(0.1));
+  S max_sigma = radians(S(1.5));  // largest standard deviation, about any axis, of a trusted rotation
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("squareness", self.squareness, Unit::kDegrees, 0, 45,
-          "how far walls and edges stand from right angles");
+          "how far the axes that a frame shows are off, all walls and edges together");
     visit("max_sigma", self.max_sigma, Unit::kDegrees, 0, 180,
           "largest standard deviation of a rotation that is trusted");
     visit_within("", self.search.rotation, visit);

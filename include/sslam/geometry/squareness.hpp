@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far what people build is off the axes of its Manhattan frame, one thing at a time: standard deviations,
+// radians.
+#pragma once
+
+#include "sslam/core/types.hpp"
+
+namespace sslam {
+
+template <Scalar S>
+inline constexpr S kWallTilt = radians(S(0.3));  // of a wall's normal
+template <Scalar S>
+inline constexpr S kEdgeTilt = radians(S(0.15));  // of an edge's direction
+
+}  // namespace sslam
