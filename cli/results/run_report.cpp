@@ -168,13 +168,13 @@ Json normals_asked_json(const RunOutcome& outcome) {
   return {{"frames", asked}, {"reasons", reasons}};
 }
 
-// "normals          asked for in 12 of 200 frames: no Manhattan frame yet 1, an axis is open 11"
+// "normals          computed in 12 of 200 frames: no Manhattan frame yet 1, an axis is open 11"
 void print_normals_asked(const RunOutcome& outcome) {
   const Json asked = normals_asked_json(outcome);
   std::string reasons;
   for (const auto& [reason, count] : asked["reasons"].items())
     reasons += (reasons.empty() ? ": " : ", ") + reason + " " + std::to_string(count.get<std::size_t>());
-  std::printf("normals          asked for in %zu of %zu frames%s\n", asked["frames"].get<std::size_t>(),
+  std::printf("normals          computed in %zu of %zu frames%s\n", asked["frames"].get<std::size_t>(),
               outcome.frames.size(), reasons.c_str());
 }
 
@@ -222,9 +222,10 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
   if (outcome.frames_dropped > 0)
-    std::printf("dropped          %zu frames that came while the tracker was busy\n", outcome.frames_dropped);
+    std::printf("dropped          %zu frames that arrived while the tracker was busy\n",
+                outcome.frames_dropped);
   if (outcome.stream_losses > 0)
-    std::printf("stream           broke %zu times and came back\n", outcome.stream_losses);
+    std::printf("stream           broke %zu times and was opened again\n", outcome.stream_losses);
   if (context.settings.normals.starts_with(kOnDemand)) print_normals_asked(outcome);
   if (const std::size_t count = count_normals(outcome, NormalStatus::kNoEvidence); count > 0)
     std::printf("normals          no Manhattan evidence in %zu of %zu frames: lines alone there\n", count,
@@ -236,9 +237,8 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   if (const std::size_t joints = count_joints(outcome); joints > 0)
     std::printf("maps joined      %zu\n", joints);
   if (outcome.apart.maps > 0)
-    std::printf(
-        "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
-        outcome.apart.maps, outcome.apart.frames);
+    std::printf("maps apart       %zu, with %zu frames: could not be joined with the map that is written\n",
+                outcome.apart.maps, outcome.apart.frames);
   if (outcome.calibration && outcome.calibration->last.verdict != CameraVerdict::kOpen)
     std::printf("camera           by the map: %s\n", camera_text(outcome.calibration->last.camera).c_str());
   if (outcome.read_out > 0)
