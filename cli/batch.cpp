@@ -111,7 +111,7 @@ void run_merge(const MergeOptions& options) {
 }
 
 void add_merge_command(CLI::App& batch) {
-  CLI::App* merge = batch.add_subcommand("merge", "Tables of all shards of a batch together");
+  CLI::App* merge = batch.add_subcommand("merge", "Make the tables of all shards of a batch");
   auto options = std::make_shared<MergeOptions>();
   merge->add_option("FOLDERS", options->folders, "the shards' folders")->required()->type_name("DIR");
   merge->add_option("-o,--out", options->out, "folder for the tables")
@@ -129,17 +129,18 @@ void add_merge_command(CLI::App& batch) {
 
 void add_batch_command(CLI::App& app) {
   CLI::App* batch = app.add_subcommand(
-      "batch", "Many sequences, presets and seeds in parallel, and a table of the results");
+      "batch", "Run many sequences, presets and seeds in parallel, and make a table of the results");
   auto options = std::make_shared<BatchOptions>();
   CLI::Option* const suite =
       batch->add_option("SUITE", options->suite, "TOML file, see docs/batch.md")->type_name("FILE");
   batch
-      ->add_option(
-          "-o,--out", options->out,
-          "folder for the results; default as the suite says, else SUITE_results. Runs that are done "
-          "there by the same settings are kept")
+      ->add_option("-o,--out", options->out,
+                   "folder for the results; default that of the suite, else SUITE_results. Complete runs "
+                   "with the same settings are kept")
       ->type_name("DIR");
-  batch->add_option("--jobs", options->jobs, "runs at a time, each on a core of its own; default one a core")
+  batch
+      ->add_option("--jobs", options->jobs,
+                   "number of parallel runs, each on its own core; default one for each core")
       ->check(CLI::Range(1, 1024).description(""));
   batch->add_option("--shard", options->shard, "i/n: every n-th run, from the i-th on, into OUT/shard-i-of-n")
       ->check([](const std::string& text) {

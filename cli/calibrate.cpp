@@ -171,7 +171,9 @@ void add_board_options(CLI::App& command, BoardSettings& board) {
       .add_option("--marker", board.marker,
                   "side of a ChArUco marker in metres; default three quarters of a square")
       ->check(CLI::PositiveNumber);
-  command.add_option("--dictionary", board.dictionary, "of ChArUco markers: " + dictionary_names())
+  command
+      .add_option("--dictionary", board.dictionary,
+                  "dictionary of the ChArUco markers: " + dictionary_names())
       ->capture_default_str();
 }
 
@@ -179,7 +181,7 @@ void add_board_options(CLI::App& command, BoardSettings& board) {
 
 void add_calibrate_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("calibrate", "A camera file from images of a chessboard or a ChArUco board");
+      app.add_subcommand("calibrate", "Make a camera file from images of a chessboard or a ChArUco board");
   auto s = std::make_shared<CalibrateSettings>();
   CLI::Option* const images =
       command
@@ -187,14 +189,15 @@ void add_calibrate_command(CLI::App& app) {
           ->type_name("FILE");
   add_topic_option(*command, s->topics);
   add_board_options(*command, s->board);
-  command->add_option("-o,--out", s->out, "camera file; NAME_coverage.png goes beside it")
+  command->add_option("-o,--out", s->out, "camera file; NAME_coverage.png is written beside it")
       ->capture_default_str()
       ->type_name("FILE");
   command
       ->add_option("--fps", s->frame_rate, "frames a second for the camera file; default those of the video")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--k3", s->k3,
-                    "a third radial coefficient, for wide lenses that are covered to the corners");
+  command->add_flag(
+      "--k3", s->k3,
+      "estimate a third radial coefficient, for wide lenses with board corners up to the edge of the image");
   static const std::map<std::string, bool> kModels{{"pinhole", false}, {"fisheye", true}};
   add_choice(*command, "--model", s->fisheye, kModels,
              "pinhole, or fisheye (Kannala-Brandt, for lenses that see more than about 120 degrees); default "

@@ -58,13 +58,13 @@ void run_demo(const DemoSettings& settings) {
 }  // namespace
 
 void add_demo_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("demo", "Render a room, track it, compare with the truth");
+  CLI::App* command = app.add_subcommand("demo", "Render a room, track it, compare with ground truth");
   auto s = std::make_shared<DemoSettings>();
-  command->add_option("folder", s->folder, "Where the room and the results go")->capture_default_str();
-  command->add_option("--frames", s->frames, "Length of the sequence")
+  command->add_option("folder", s->folder, "Folder for the room and the results")->capture_default_str();
+  command->add_option("--frames", s->frames, "Number of frames")
       ->capture_default_str()
       ->check(CLI::Range(10, 100000));
-  command->add_option("--seed", s->seed, "Of the room and of the run")->capture_default_str();
+  command->add_option("--seed", s->seed, "Seed of the room and of the run")->capture_default_str();
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   add_progress_options(*command, s->verbosity, true);
   command->callback([s] { run_demo(*s); });

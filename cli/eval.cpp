@@ -65,7 +65,7 @@ nlohmann::ordered_json eval_one(const std::string& file, const EvalSettings& set
   const io::Evaluation evaluation = io::evaluate(both.truth, both.estimate, settings.options);
   if (settings.estimates.size() > 1) std::printf("%s\n", file.c_str());
   if (offset)
-    std::printf("time offset      %+.4f, found; likeness of the motions %.3f\n", offset->offset,
+    std::printf("time offset      %+.4f, found; correlation of the motions %.3f\n", offset->offset,
                 offset->likeness);
   std::fputs(evaluation_table(evaluation).c_str(), stdout);
   if (settings.estimates.size() > 1) std::fputs("\n", stdout);
@@ -121,17 +121,20 @@ void add_eval_command(CLI::App& app) {
                    "trajectory (TUM, EuRoC, KITTI, 4x4 matrices, COLMAP's images), or the folder of a "
                    "dataset or a run")
       ->required();
-  eval->add_option("ESTIMATE", settings->estimates,
-                   "trajectories, camera to world, or folders of runs; several are told one after the other")
+  eval->add_option(
+          "ESTIMATE", settings->estimates,
+          "trajectories, camera to world, or folders of runs; several are reported one after the other")
       ->required();
-  eval->add_option("--times", settings->times, "stamps of trajectories without any (KITTI), one a row")
+  eval->add_option("--times", settings->times,
+                   "file of stamps, one a row, for trajectories without any (KITTI)")
       ->type_name("FILE");
   eval->add_option("--offset", settings->offset, "seconds to add to the stamps of ESTIMATE; default 0");
   eval->add_flag("--find-offset", settings->find_offset,
                  "find the offset between the clocks from turn rates and speeds, for each ESTIMATE");
   add_choice(*eval, "--align", options.alignment, kAlignmentNames,
              "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3");
-  eval->add_option("--max-difference", options.max_difference, "between the stamps of a pair; default 0.02")
+  eval->add_option("--max-difference", options.max_difference,
+                   "largest difference between the stamps of a pair; default 0.02")
       ->check(CLI::PositiveNumber);
   eval->add_option("--delta", settings->deltas,
                    "steps of the relative error, such as 1f (frames) or 0.5s (seconds); default 1f 1s")
@@ -139,7 +142,7 @@ void add_eval_command(CLI::App& app) {
         return parse_delta(text) ? std::string() : "'" + text + "' is not a step such as 1f or 0.5s";
       });
   eval->add_option("--frames", options.frames,
-                   "images that could have been tracked; known by itself when GROUNDTRUTH is in a dataset")
+                   "number of images of the sequence; not needed if GROUNDTRUTH is in a dataset")
       ->check(CLI::PositiveNumber);
   add_choice(*eval, "--axes", settings->axes, kAxesNames,
              "axes of GROUNDTRUTH: y-down, y-up (ICL-NUIM as published), auto; default auto");

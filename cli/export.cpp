@@ -217,7 +217,7 @@ void run_export(const ExportSettings& settings) {
 
 void add_export_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("export", "Write a run's trajectory or map in the form that another program reads");
+      app.add_subcommand("export", "Convert a run's trajectory or map to files for other programs");
   auto s = std::make_shared<ExportSettings>();
   command->add_option("run", s->run, "Folder that `sslam run --out` has written to")->required();
   command
@@ -230,12 +230,10 @@ void add_export_command(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember(
           {"colmap", "depth", "floorplan", "glb", "kitti", "mcap", "nerfstudio", "ply", "tum"}));
-  command
-      ->add_option("-o,--out", s->out, "Folder for the files; default one of the format's name in the run's")
-      ->type_name("DIR");
+  command->add_option("-o,--out", s->out, "Folder for the files; default RUN/FORMAT")->type_name("DIR");
   command->add_flag(
       "--images", s->images,
-      "Of colmap, depth and nerfstudio: write the keyframes' images as well, undistorted, into images");
+      "With colmap, depth and nerfstudio: also write the keyframes' images, undistorted, into images");
   command->callback([s] { run_export(*s); });
 }
 

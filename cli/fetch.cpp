@@ -106,10 +106,12 @@ void add_fetch_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("fetch", "Download public sequences, verify and unpack them");
   auto s = std::make_shared<FetchSettings>();
   command->add_option("NAMES", s->names, "of sequences: " + sequence_names())->required();
-  command->add_option("-o,--out", s->out, "folder for them")->capture_default_str()->type_name("DIR");
+  command->add_option("-o,--out", s->out, "folder for the sequences")
+      ->capture_default_str()
+      ->type_name("DIR");
   command->add_option("--mirror", s->mirror,
-                      "address of a folder with the archives; default their publishers'");
-  command->add_flag("--keep-archive", s->keep_archive, "keep the archive beside what it held");
+                      "address of a folder with the archives; default the publishers' addresses");
+  command->add_flag("--keep-archive", s->keep_archive, "keep the archive beside the unpacked folder");
   const auto list = [] {
     list_sequences();
     throw CLI::Success();

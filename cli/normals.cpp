@@ -170,7 +170,7 @@ void run_normals(const NormalsSettings& settings) {
 
 void add_normals_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "normals", "Show what the normal network sees in images: normals to reuse, pictures to look at");
+      "normals", "Run the normal network on images: normals for later runs, pictures for viewing");
   auto s = std::make_shared<NormalsSettings>();
   command->add_option("IMAGES", s->images, "image, folder of images, dataset, quoted glob, video, or bag")
       ->required();

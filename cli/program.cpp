@@ -130,7 +130,7 @@ void add_self_description(CLI::App& app) {
     print(shell == "zsh" ? zsh_completion(app) : bash_completion(app));
   };
   app.add_option_function<std::string>("--completion", complete,
-                                       "Print what completes the command line in this shell and exit")
+                                       "Print the completion script for this shell and exit")
       ->check(CLI::IsMember({"bash", "zsh"}))
       ->trigger_on_parse();
 }

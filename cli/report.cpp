@@ -88,7 +88,7 @@ void report(const std::vector<std::filesystem::path>& folders, std::filesystem::
 
 void add_report_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "report", "Make report.html of a run anew, from the run's files, or compare several runs on one page");
+      "report", "Write report.html of a run again from its files, or compare several runs on one page");
   struct Settings {
     std::vector<std::filesystem::path> folders;
     std::filesystem::path out;

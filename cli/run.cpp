@@ -47,13 +47,12 @@ void add_input_options(CLI::App& command, RunSettings& s) {
                                                                     {"find", CalibrationMode::kFind}};
   add_choice(
       command, "--calibration", s.calibration, kCalibrations,
-      "fixed: as it is given; refine: where the images contradict it, track them again with the camera "
-      "that was found; find: it is a guess, so find the camera first, as is done without a calibration; "
-      "default refine");
+      "fixed: use it as given; refine: if the images contradict it, track them again with the camera that "
+      "was found; find: it is a guess, so find the camera first, as without a calibration; default refine");
   command.add_option("--start", s.slice.start, "First frame")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--end", s.slice.end, "Frame to stop before; negative: the last")->capture_default_str();
+  command.add_option("--end", s.slice.end, "Frame to stop before; negative: use all")->capture_default_str();
   command.add_option("--stride", s.slice.stride, "Take every n-th frame")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -64,20 +63,17 @@ void add_input_options(CLI::App& command, RunSettings& s) {
       ->check(CLI::PositiveNumber);
   command
       .add_option("--longest-side", s.longest_side,
-                  "Images with a longer side are shrunk to it, pixels; 0: none is")
+                  "Longest side of an image in pixels: larger images are shrunk; 0: no limit")
       ->capture_default_str()
       ->check(CLI::Range(0, 100000));
   command
-      .add_option(
-          "--mask", s.mask,
-          "Image whose pixels of 0 are left out of all frames (a robot's own parts, burnt-in text), or "
-          "a folder with such an image for each frame, NAME.png")
+      .add_option("--mask", s.mask,
+                  "Mask: an image whose pixels of 0 are left out of all frames (a robot's own parts, "
+                  "burnt-in text), or a folder with a mask for each frame, NAME.png")
       ->type_name("FILE");
-  command
-      .add_option("--record", s.record,
-                  "Keep the images as a dataset that sslam run takes, in a new folder, as they come")
+  command.add_option("--record", s.record, "Save the tracked images as a dataset in a new folder")
       ->type_name("DIR");
-  command.add_option("--retry", s.retry, "Seconds that a lost camera or stream is tried again for")
+  command.add_option("--retry", s.retry, "Seconds during which a lost camera or stream is tried again")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 86400.0));
   put_in_group(
@@ -88,7 +84,7 @@ void add_input_options(CLI::App& command, RunSettings& s) {
 
 void add_tracking_options(CLI::App& command, RunSettings& s) {
   command.add_option("--normals", s.normals, kNormalsMeaning)->type_name("SOURCE");
-  std::string presets = "What the pipeline is made of:";
+  std::string presets = "Stages of the pipeline:";
   std::vector<std::string> names;
   for (const Preset& preset : all_presets()) {
     presets += "\n  " + std::string(preset.name) + ": " + std::string(preset.meaning);
@@ -101,29 +97,28 @@ void add_tracking_options(CLI::App& command, RunSettings& s) {
     std::fputs(describe_parameters().c_str(), stdout);
     throw CLI::Success();
   };
-  command.add_flag_callback("--list-parameters", list, "Print what --set can change, and stop")
+  command.add_flag_callback("--list-parameters", list, "Print all parameters for --set, and stop")
       ->trigger_on_parse();
-  command.add_option("--seed", s.seed, "Of everything random")->capture_default_str();
+  command.add_option("--seed", s.seed, "Seed of all random samples")->capture_default_str();
   command
       .add_option("--map", s.map,
-                  "Go on in the map of an earlier run, its map.sslam: poses are in that map's world")
+                  "Continue in the map of an earlier run (map.sslam): poses are in the world of that map")
       ->type_name("FILE");
   command.add_flag("--live", s.live,
-                   "As with a camera: frames come at the pace of their stamps, mapping and loop closing have "
-                   "a thread of their own, tracking never waits for them; no two runs are alike");
+                   "Live mode: frames arrive at the pace of their stamps, mapping and loop closing have "
+                   "their own thread, tracking never waits for them; no two runs are alike");
   command.add_flag_callback(
       "--no-final-pass", [&s] { s.final_pass = false; },
-      "Leave out what follows the last frame: the whole map is adjusted, and every frame tracked again in "
-      "it");
+      "Leave out the final pass, which adjusts the whole map after the last frame and tracks every frame "
+      "again");
   const auto tell_read_out = [&s](double seconds) {
     s.set.push_back("final_pass.read_out=" + std::to_string(seconds));
     s.set.push_back("final_pass.shutter.search=0");
   };
   command
-      .add_option_function<double>(
-          "--read-out", tell_read_out,
-          "From the first row of an image to the last, of a rolling shutter; 0: all rows at once; without "
-          "it, the map is asked for it after the last frame")
+      .add_option_function<double>("--read-out", tell_read_out,
+                                   "Read-out time of a rolling shutter, from the first row to the last; 0: "
+                                   "global shutter; default: estimated after the last frame")
       ->check(CLI::Range(0.0, 0.2))
       ->type_name("SECONDS");
   put_in_group(command, "Tracking",
@@ -144,21 +139,17 @@ void add_output_options(CLI::App& command, RunSettings& s) {
                   "Overlay video to write, .mp4 or .avi: features, segments by axis, normals, state")
       ->type_name("FILE");
   CLI::Option* const view = command.add_flag(
-      "--view", s.view,
-      "Show the run in a browser on this machine while it goes on, then its report until Ctrl-C");
+      "--view", s.view, "Show the run in a browser on this machine, then its report until Ctrl-C");
   add_port_option(command, s.port)->needs(view);
   add_foxglove_option(command, s.foxglove);
-  command.add_flag(
-      "--dense", s.dense,
-      "Write the walls, floors and other planes with the images on them: model.glb for any viewer, "
-      "model.obj, model.ply");
+  command.add_flag("--dense", s.dense,
+                   "Write walls, floors and other planes with texture: model.glb, model.obj, model.ply");
   command.add_flag_callback(
-      "--no-report", [&s] { s.report = false; }, "Leave report.html and the pictures for it out");
+      "--no-report", [&s] { s.report = false; }, "Do not write report.html and its pictures");
   command
       .add_option("--checkpoint", s.checkpoint,
-                  "Seconds after which the state of the run is kept in --out, for --resume, again and again; "
-                  "0: never; default 60, and never with --live, --view, --video, --record, --dense or a "
-                  "stream")
+                  "Interval of checkpoints, which --resume continues from; 0: none; default 60, and none "
+                  "with --live, --view, --video, --record, --dense or a stream")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
   put_in_group(command, "Output",
@@ -224,9 +215,9 @@ void add_run_command(CLI::App& app) {
     command->get_option("dataset")->required(false);
   };
   command
-      ->add_option_function<std::string>("--resume", resumes,
-                                         "Go on where the run into this folder stopped, with its dataset and "
-                                         "options, from its last checkpoint")
+      ->add_option_function<std::string>(
+          "--resume", resumes,
+          "Continue the run into this folder from its last checkpoint, with its dataset and options")
       ->trigger_on_parse()
       ->type_name("DIR");
   put_in_group(*command, "Output", {"--resume"});

@@ -164,7 +164,7 @@ void add_synth_command(CLI::App& app) {
   CLI::App* synth =
       app.add_subcommand("synth", "Render a synthetic house with ground truth, TUM RGB-D layout");
   auto settings = std::make_shared<SynthSettings>();
-  synth->add_option("DIR", settings->folder, "where the data set goes; made if it is not there")->required();
+  synth->add_option("DIR", settings->folder, "folder for the dataset; created if missing")->required();
   add_synth_options(*synth, *settings);
   synth->callback([settings] { run_synth(*settings); });
 }

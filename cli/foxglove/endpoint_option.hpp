@@ -20,10 +20,10 @@ inline CLI::Option* add_foxglove_option(CLI::App& command, std::optional<Endpoin
                                                    "; a dataset goes before --foxglove");
   };
   return command
-      .add_option_function<std::string>("--foxglove", take,
-                                        "Send poses, map, images and warnings to Foxglove while the run goes "
-                                        "on, by its WebSocket protocol; "
-                                        "[ADDRESS:]PORT, default 127.0.0.1:8765; port 0: any free one")
+      .add_option_function<std::string>(
+          "--foxglove", take,
+          "Send poses, map, images and warnings to Foxglove during the run, by its WebSocket protocol; "
+          "[ADDRESS:]PORT, default 127.0.0.1:8765; port 0: any free one")
       ->expected(0, 1)
       ->type_name("PORT");
 }

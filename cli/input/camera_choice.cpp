@@ -122,12 +122,11 @@ CameraChoice assumed_camera(const io::Dataset& dataset, int width, int height) {
   const double focal = focal_of_view(kView, std::max(width, height));
   CameraChoice choice = plain_camera(focal, width, height, "assumed: 60 degrees", kUnknownFocal);
   choice.assumed = true;
-  std::snprintf(
-      text, sizeof text,
-      "the camera is not known: ASSUMING a field of view of %.0f degrees along the longer side (a focal "
-      "length of %.0f pixels) and no distortion; --camera FILE, --focal or --fov say better, sslam calibrate "
-      "makes a camera file",
-      kView, focal);
+  std::snprintf(text, sizeof text,
+                "the camera is not known: ASSUMING a field of view of %.0f degrees along the longer side (a "
+                "focal length of %.0f pixels) and no distortion; set it by --camera FILE, --focal or --fov, "
+                "or make a camera file by sslam calibrate",
+                kView, focal);
   choice.warnings.emplace_back(text);
   return choice;
 }

@@ -21,11 +21,11 @@ inline void add_camera_options(CLI::App& command, std::string& file, double& foc
   CLI::Option* const pixels =
       command
           .add_option("--focal", focal,
-                      "Focal length in pixels, of a camera without calibration and distortion")
+                      "Focal length in pixels, for a camera without a calibration; no distortion")
           ->check(CLI::PositiveNumber)
           ->type_name("PIXELS")
           ->excludes(camera);
-  command.add_option("--fov", fov, "As --focal, by the field of view across the image")
+  command.add_option("--fov", fov, "Horizontal field of view, in place of --focal")
       ->check(CLI::Range(3.0, 150.0))
       ->type_name("DEGREES")
       ->excludes(camera)
@@ -35,8 +35,8 @@ inline void add_camera_options(CLI::App& command, std::string& file, double& foc
 inline void add_undistort_option(CLI::App& command, double& fov) {
   command
       .add_option("--undistort-fov", fov,
-                  "Of a lens that is too wide for a pinhole: degrees across of the view that its images are "
-                  "undistorted to; default 110, or what it sees")
+                  "Horizontal angle of the pinhole view that images of a wide lens are undistorted to; "
+                  "default 110, or less if the lens sees less")
       ->check(CLI::Range(30.0, WideView::kWidest))
       ->type_name("DEGREES");
 }

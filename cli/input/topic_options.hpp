@@ -9,14 +9,14 @@
 namespace sslam::cli {
 
 inline void add_topic_option(CLI::App& command, io::BagTopics& topics) {
-  command.add_option("--topic", topics.images, "Topic of a bag's images; not needed where it has one alone")
+  command.add_option("--topic", topics.images, "Topic of a bag's images; not needed if there is only one")
       ->type_name("NAME");
 }
 
 inline void add_depth_topic_option(CLI::App& command, io::BagTopics& topics) {
   command
       .add_option("--depth-topic", topics.depth,
-                  "Topic of a bag's depth images, for the same pixels; not needed where it has one alone")
+                  "Topic of a bag's depth images, registered to the images; not needed if there is only one")
       ->type_name("NAME");
 }
 

@@ -41,7 +41,7 @@ function cross(a, b) { return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b
 
 // The states of frames, in words.
 const kStateWords = {
-  manhattan: "rotation from the room's structure", fallback: "six degrees of freedom, without the room's structure",
+  manhattan: "rotation from the Manhattan frame", fallback: "six degrees of freedom, without the Manhattan rotation",
   lost: "lost", initialising: "no map yet",
 };
 
@@ -51,8 +51,8 @@ const kReasonWords = {
   "too few matches": "too few matches with the map",
   "low parallax": "the camera has not moved sideways far enough",
   "no consensus": "the matches do not agree on one motion",
-  "no Manhattan evidence": "the room's axes gave no rotation that is certain enough",
-  "Manhattan pose rejected": "the pose with the room's rotation does not fit the map",
+  "no Manhattan evidence": "the Manhattan axes gave no rotation that is certain enough",
+  "Manhattan pose rejected": "the pose with the Manhattan rotation does not fit the map",
   "uncertain pose": "the pose is too uncertain to be used",
   relocalised: "found again in the map",
 };

@@ -40,7 +40,7 @@ function spanStory(span, first) {
   if (span.key === "fallback") {
     return {
       state: "fallback", row: span.from, length,
-      text: `The room's structure has no part in the pose of ${countOf(length, "frame")} (${whereOf(span)})${because(span)}. Points and lines alone gave all six degrees of freedom.`,
+      text: `${countOf(length, "frame")} without the Manhattan rotation (${whereOf(span)})${because(span)}. Points and lines alone gave all six degrees of freedom.`,
     };
   }
   const late = length > 30 || length > 0.1 * run.frames.count;
@@ -87,16 +87,16 @@ function tellStory() {
   for (const row of marked("loop_closed"))
     items.push({ state: "manhattan", row, length: 1, text: `A loop was closed: a known place was recognised (${whereOf({ from: row, to: row })}).` });
   for (const row of marked("maps_joined"))
-    items.push({ state: "manhattan", row, length: 1, text: `Two maps became one: a place of an earlier map was recognised (${whereOf({ from: row, to: row })}).` });
+    items.push({ state: "manhattan", row, length: 1, text: `Two maps were joined: a place of an earlier map was recognised (${whereOf({ from: row, to: row })}).` });
   if (metrics.maps_apart > 0)
-    items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be connected with this one: no place was seen in both. Those frames have no pose in the trajectory.` });
+    items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be joined with this one: no place was recognised in both. Those frames have no pose in the trajectory.` });
   const asked = metrics.normals_asked;
   if (run.settings?.normals?.startsWith("on-demand") && asked) {
     const why = Object.entries(asked.reasons).map(([reason, count]) => `${reason} (${count})`).join(", ");
-    items.push({ state: "manhattan", text: asked.frames > 0 ? `Surface normals were asked for in ${countOf(asked.frames, "frame")}: ${why}. Lines gave the rotation in the others.` : "Lines gave the rotation in every frame: surface normals were not asked for." });
+    items.push({ state: "manhattan", text: asked.frames > 0 ? `Surface normals were computed for ${countOf(asked.frames, "frame")}: ${why}. Lines gave the rotation in the others.` : "Lines gave the rotation in every frame: no surface normals were computed." });
   }
   const unseen = metrics.frames_without_normal_evidence;
-  if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals showed none of the room's axes: too few planes were in view. Lines alone gave the axes there.` });
+  if (unseen > 0) items.push({ state: "fallback", text: `In ${countOf(unseen, "frame")} the normals showed no Manhattan axis: too few planes were in view. Lines alone gave the axes there.` });
   const worst = run.errors ? greatest(run.errors.position_m) : -1;
   if (worst >= 0) items.push({ state: "manhattan", text: `The largest position error is ${figure(run.errors.position_m[worst])} m (${whereOf({ from: worst, to: worst })}).`, row: worst });
   const { path_m: truly, estimate_path_m: estimated, notes } = metrics.trajectory ?? {};
@@ -122,7 +122,7 @@ function headline() {
   if (run.frames.count === 0) return "";
   if (run.metrics.tracked === 0) return "No frame was tracked. The list below says why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];
-  parts.push(fallback === 0 ? "the room's structure is in the pose of every frame with a map" : `${countOf(fallback, "frame")} without the room's structure`);
+  parts.push(fallback === 0 ? "the Manhattan rotation is in the pose of every frame with a map" : `${countOf(fallback, "frame")} without the Manhattan rotation`);
   return `${parts.join("; ")}.`;
 }
 

@@ -21,7 +21,7 @@ inline void warn_of_wide_lens(const RunFolder& run) {
   print_warning(
       "the run's images are of a wide lens, and the exported camera is that of a pinhole's view of " +
       std::to_string(std::lround(degrees->get<double>())) +
-      " degrees across: undistort the images to it before they are used");
+      " degrees across: undistort the images to it before using them");
 }
 
 // Keyframes that were left out.

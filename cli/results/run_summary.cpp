@@ -17,12 +17,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "normals          asked for in 12 of 200 frames: no Manhattan frame yet 1, an axis is open 11"
+// "normals          computed in 12 of 200 frames: no Manhattan frame yet 1, an axis is open 11"
 void print_normals_asked(const Json& asked, std::size_t frames) {
   std::string reasons;
   for (const auto& [reason, count] : asked["reasons"].items())
     reasons += (reasons.empty() ? ": " : ", ") + reason + " " + std::to_string(count.get<std::size_t>());
-  std::printf("normals          asked for in %zu of %zu frames%s\n", asked["frames"].get<std::size_t>(),
+  std::printf("normals          computed in %zu of %zu frames%s\n", asked["frames"].get<std::size_t>(),
               frames, reasons.c_str());
 }
 
@@ -48,9 +48,10 @@ void print_run_summary(const RunContext& context, const RunOutcome& outcome,
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
   if (outcome.frames_dropped > 0)
-    std::printf("dropped          %zu frames that came while the tracker was busy\n", outcome.frames_dropped);
+    std::printf("dropped          %zu frames that arrived while the tracker was busy\n",
+                outcome.frames_dropped);
   if (outcome.stream_losses > 0)
-    std::printf("stream           broke %zu times and came back\n", outcome.stream_losses);
+    std::printf("stream           broke %zu times and was opened again\n", outcome.stream_losses);
   if (context.settings.normals.starts_with(kOnDemand))
     print_normals_asked(metrics["normals_asked"], outcome.frames.size());
   if (const auto count = metrics["frames_without_normal_evidence"].get<std::size_t>(); count > 0)
@@ -64,9 +65,8 @@ void print_run_summary(const RunContext& context, const RunOutcome& outcome,
   if (const auto joints = metrics["maps_joined"].get<std::size_t>(); joints > 0)
     std::printf("maps joined      %zu\n", joints);
   if (outcome.apart.maps > 0)
-    std::printf(
-        "maps apart       %zu, with %zu frames: no place connects them with the map that is written\n",
-        outcome.apart.maps, outcome.apart.frames);
+    std::printf("maps apart       %zu, with %zu frames: could not be joined with the map that is written\n",
+                outcome.apart.maps, outcome.apart.frames);
   if (outcome.calibration && outcome.calibration->last.verdict != CameraVerdict::kOpen)
     std::printf("camera           by the map: %s\n", camera_text(outcome.calibration->last.camera).c_str());
   if (outcome.read_out > 0)

@@ -37,7 +37,7 @@ const Preset& choose_preset(const std::string& wanted) {
 
 io::Dataset open_run_dataset(const RunSettings& settings) {
   if (stream_named(settings.dataset))
-    throw Error(settings.dataset + ": is a stream, which nobody can run twice; sslam run takes it");
+    throw Error(settings.dataset + ": is a stream, which cannot be read twice; use sslam run");
   settle_results(settings.dataset);  // of `sslam synth`
   io::Dataset dataset =
       open_frames(settings.dataset, {settings.frame_rate}, settings.topics, settings.slice.end);
@@ -94,10 +94,10 @@ void check_wide(const RunSettings& settings, const CameraChoice& camera) {
 CheckpointClock checkpoint_clock(const RunSettings& settings) {
   const CheckpointClock never(0, 0);
   const std::pair<bool, const char*> hindrances[] = {
-      {settings.live, "--live, which no two runs do alike"},
-      {settings.view, "--view, whose page would lack what was before"},
-      {!settings.video.empty(), "--video, which would begin anew"},
-      {!settings.record.empty(), "--record, which would begin anew"},
+      {settings.live, "--live, which is not repeatable"},
+      {settings.view, "--view, whose page would lack the earlier frames"},
+      {!settings.video.empty(), "--video, which would start again"},
+      {!settings.record.empty(), "--record, which would start again"},
       {settings.dense, "--dense, whose images are not kept"},
       {stream_named(settings.dataset).has_value(), "a stream, which cannot be read again"},
   };

@@ -128,7 +128,7 @@ bool SelfCalibration::refuted(std::size_t with_given, std::size_t with_found) {
   warnings_ = {source_ +
                ": the images seem to contradict this calibration, but with the camera that was found " +
                std::to_string(with_found) + " frames have a pose, with the given one " +
-               std::to_string(with_given) + ": the given one stands"};
+               std::to_string(with_given) + ": the given one is kept"};
   return true;
 }
 

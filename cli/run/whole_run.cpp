@@ -136,9 +136,8 @@ void WholeRun::open_output() {
   io::prepare_output_folder(settings_.out);
   lock_.emplace(FolderLock::demand(settings_.out));
   if (!settings_.resumed && has_checkpoint(settings_.out))
-    print_note(settings_.out +
-               ": holds the checkpoint of a run that stopped, from which sslam run --resume " +
-               settings_.out + " would go on; this run takes its place");
+    print_note(settings_.out + ": holds the checkpoint of a run that stopped, which sslam run --resume " +
+               settings_.out + " would continue; this run replaces it");
   if (settings_.foxglove) stream_.emplace(*settings_.foxglove, dataset_);
   if (settings_.record.empty()) return;
   recording_.emplace(settings_.record);

@@ -36,13 +36,13 @@ CLI::Validator between(double low, double high) {
 }
 
 void add_scene_options(CLI::App& synth, SynthSettings& s) {
-  synth.add_option("--seed", s.house.seed, "of layout, materials, light, path and noise; default 1")
+  synth.add_option("--seed", s.house.seed, "seed of layout, materials, light, path and noise; default 1")
       ->check([](const std::string& text) {
         return io::parse_number<std::uint64_t>(text) ? std::string()
                                                      : "'" + text + "' is not a whole number from 0 on";
       });
   add_choice(synth, "--texture", s.house.richness, kRichnessNames,
-             "rich, mixed or poor (plain paint alone); default rich");
+             "rich, mixed or poor (plain paint); default rich");
   add_choice(
       synth, "--world", s.house.world, kWorldNames,
       "manhattan, turned (furniture at other headings), oblique (one such wall) or free (no right angle "
@@ -59,24 +59,26 @@ void add_scene_options(CLI::App& synth, SynthSettings& s) {
                  "doors stand open by 5 to 70 degrees; for one room or three");
   synth
       .add_option("--clutter", s.house.clutter,
-                  "how many small things lie on the floor along walls and on tables, 0 to 200; for one room "
-                  "or three; default 0")
+                  "number of small objects on the floor along walls and on tables, 0 to 200; for one room or "
+                  "three; default 0")
       ->check(CLI::Range(0, synth::kMostClutter).description(""));
   add_choice(synth, "--path", s.house.path, kPathNames,
              "loop, sweep (to and fro before a wall) or pivot (turns on the spot, then loops); several rooms "
              "are always toured; default loop");
   synth.add_option("--speed", s.house.motion.speed, "metres per second; default 0.5")
       ->check(between(0.01, 5.0));
-  synth.add_option("--tremor", s.house.motion.tremor, "of the hand; 0: none, default 1")
+  synth.add_option("--tremor", s.house.motion.tremor, "motion of the hand; 0: none, default 1")
       ->check(between(0.0, 10.0));
-  synth.add_option("--shake", s.house.motion.shake, "faster and smaller than the tremor; 0: none, default 0")
+  synth
+      .add_option("--shake", s.house.motion.shake,
+                  "motion of the hand, faster and smaller than the tremor; 0: none, default 0")
       ->check(between(0.0, 10.0));
-  synth.add_option("--stand", s.house.motion.stand, "seconds before the first step; default 0")
+  synth.add_option("--stand", s.house.motion.stand, "seconds of standing before the first step; default 0")
       ->check(between(0.0, 600.0));
 }
 
 void add_image_options(CLI::App& synth, SynthSettings& s) {
-  synth.add_option("--frames", s.frames, "how many; default one lap of the path")
+  synth.add_option("--frames", s.frames, "number of frames; default one lap of the path")
       ->check(CLI::Range(1, 1000000).description(""));
   synth.add_option("--fps", s.rate, "frames per second; default 30")->check(between(0.1, 1000.0));
   synth
@@ -103,11 +105,11 @@ void add_image_options(CLI::App& synth, SynthSettings& s) {
       ->check(between(0.0, 0.9));
   synth
       .add_option("--exposure-drift", s.sensor.exposure_drift,
-                  "how far the brightness wanders within seconds, as a share; default 0")
+                  "slow change of brightness, as a share; default 0")
       ->check(between(0.0, 0.9));
   synth
       .add_option("--white-balance-drift", s.sensor.white_balance_drift,
-                  "how far red and blue wander apart, as a share; default 0")
+                  "slow change of red against blue, as a share; default 0")
       ->check(between(0.0, 0.9));
 }
 
@@ -129,8 +131,8 @@ void add_lens_options(CLI::App& synth, SynthSettings& s) {
   synth
       .add_option_function<std::string>(
           "--camera-error", [&s](const std::string& text) { (void)parse_camera_error(text, s.camera_error); },
-          "by how much camera.yaml is wrong, such as focal=0.05,k1=0.1: focal as a share, cx and cy in "
-          "pixels, k1, k2, p1, p2; default nothing")
+          "error of camera.yaml, such as focal=0.05,k1=0.1: focal as a share, cx and cy in pixels, k1, k2, "
+          "p1, p2; default nothing")
       ->type_name("NAME=VALUE,...")
       ->check([](const std::string& text) {
         CameraError error;

@@ -8,7 +8,7 @@ namespace sslam::cli {
 
 // The port must live until the application has been parsed.
 inline CLI::Option* add_port_option(CLI::App& command, int& port) {
-  return command.add_option("--port", port, "Of the page, on 127.0.0.1 alone; 0: any free one")
+  return command.add_option("--port", port, "Port of the page, on 127.0.0.1; 0: any free one")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
 }

@@ -87,7 +87,7 @@ TEST_CASE(
   for (const auto& [reason, count] : asked["reasons"].items()) reasons += count.get<int>();
   REQUIRE(asked["frames"] == reasons);
   outcome = copy.run("--end 20 --normals on-demand");
-  REQUIRE(outcome.text.find("normals          asked for in " + asked["frames"].dump() + " of 20 frames") !=
+  REQUIRE(outcome.text.find("normals          computed in " + asked["frames"].dump() + " of 20 frames") !=
           std::string::npos);
   REQUIRE(copy.metrics()["normals_asked"] == asked);
   outcome = copy.run("--end 20 --normals onnx");

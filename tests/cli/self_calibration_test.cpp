@@ -136,7 +136,7 @@ TEST_CASE("a camera that was found gives way to the given one where it has far f
   CHECK_FALSE(calibration.replaced());
   REQUIRE(calibration.warnings().size() == 1);
   CHECK(calibration.warnings()[0].find(
-            "0 frames have a pose, with the given one 248: the given one stands") != std::string::npos);
+            "0 frames have a pose, with the given one 248: the given one is kept") != std::string::npos);
 }
 
 }  // namespace self_calibration_test

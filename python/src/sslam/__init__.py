@@ -9,8 +9,8 @@
     system.finish()
     print(system.trajectory().positions)
 
-Poses are 4x4 matrices, camera to world; the camera looks along z, x is right and y down. Stamps are seconds, lengths
-metres up to the scale that one camera leaves open.
+Poses are 4x4 matrices, camera to world; the camera looks along z, x is right and y down. Stamps are seconds; lengths
+have the unknown scale of a single camera.
 """
 
 import importlib

@@ -29,7 +29,7 @@ class Dataset:
         self._recording = recording
 
     def __len__(self) -> int:
-        """Frames that are listed."""
+        """Number of listed frames."""
         return len(self._recording)
 
     def __iter__(self) -> Iterator[Frame]:
@@ -69,7 +69,7 @@ class Dataset:
 
     @property
     def seconds_per_stamp(self) -> float:
-        """1, but in the layout of ICL-NUIM, whose stamps count frames."""
+        """1, except in the layout of ICL-NUIM, whose stamps count frames."""
         return self._recording.seconds_per_stamp
 
     @property
@@ -97,18 +97,19 @@ def open_dataset(
     end: Optional[int] = None,
     stride: int = 1,
 ) -> Dataset:
-    """Opens whatever `sslam run` takes: a folder in a layout that it knows (docs/run.md), a folder or a glob of
-    images, a video, or a bag of ROS.
+    """Opens any recorded input of `sslam run`: a folder in a known layout (docs/run.md), a folder or a glob of
+    images, a video, or a ROS bag.
 
-    topic, depth_topic: of a bag's images and of their depth; not needed where it has one alone.
-    camera: a camera file or the name of a built-in calibration; else focal (pixels) or fov (degrees across); else the
-        one that is found in the dataset, or guessed with a warning.
-    undistort_fov: of a lens that is too wide for a pinhole: degrees across of the view that its images are undistorted
-        to, 30 to 140; 110, or what it sees, by itself. The dataset's camera and images are those of the view.
-    frame_rate: frames a second, for images whose names are no stamps.
+    topic, depth_topic: topics of a bag's images and of their depth; not needed if there is only one.
+    camera: a camera file or the name of a built-in calibration; else focal (pixels) or fov (horizontal, degrees); else
+        the camera of the dataset, or a guess with a warning.
+    undistort_fov: horizontal angle in degrees, 30 to 140, of the pinhole view that images of a wide lens are
+        undistorted to; default 110, or less if the lens sees less. The dataset's camera and images are those of the
+        view.
+    frame_rate: frames a second, for images whose names are not stamps.
     start, end, stride: part of the recording.
 
-    Raises sslam.Error when there is nothing of this kind.
+    Raises sslam.Error if the input cannot be opened.
     """
     for name, value in (("focal", focal), ("fov", fov)):
         if not 0 <= _check.real(name, value) < float("inf"):
@@ -189,15 +190,15 @@ def evaluate(
     max_difference: float = 0.02,
     frames: int = 0,
 ) -> Evaluation:
-    """Compares a trajectory with the true one, as `sslam eval` does.
+    """Compares a trajectory with ground truth, as `sslam eval` does.
 
     truth: a Trajectory, a Dataset, or a path: of a file of poses, of a dataset, or of a run.
     estimate: a Trajectory, or the path of a file of poses or of a run.
     align: "sim3" (rotation, translation and scale), "se3" (no scale) or "none".
-    max_difference: between the stamps of a pair.
-    frames: that could have been tracked; by itself where the dataset is known.
+    max_difference: largest difference between the stamps of a pair.
+    frames: number of images of the sequence; not needed if the dataset is known.
 
-    Raises sslam.Error where the two do not overlap or cannot be aligned.
+    Raises sslam.Error if the two do not overlap or cannot be aligned.
     """
     if align not in ("sim3", "se3", "none"):
         raise ValueError(f"align: {align!r} is not known; use 'sim3', 'se3' or 'none'")

@@ -1,12 +1,12 @@
-"""What sslam raises. Every message is one line that begins with the argument or the file that is wrong."""
+"""The exceptions of sslam. Each message is one line that begins with the wrong argument or file."""
 
 
 class Error(RuntimeError):
-    """A file that cannot be read or written, or a call at a time when it makes no sense."""
+    """A file that cannot be read or written, or a call that is not allowed in this state."""
 
 
 class SettingsError(Error, ValueError):
-    """Settings of a System that contradict themselves or each other."""
+    """Invalid or contradictory settings of a System."""
 
 
 class FinishedError(Error):
@@ -14,4 +14,4 @@ class FinishedError(Error):
 
 
 class SslamWarning(UserWarning):
-    """What sslam has to tell of its input: a frame that is skipped, a camera that is assumed."""
+    """A warning about the input, such as a skipped frame or an assumed camera."""

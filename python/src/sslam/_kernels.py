@@ -1,5 +1,5 @@
 """Kernels on arrays. Pixels are those of the camera's images, with their distortion; sigmas are standard deviations.
-They answer with a status, and raise only for arguments that are none: a wrong shape, a matrix that is no rotation."""
+They return a status, and raise only for invalid arguments: a wrong shape, a matrix that is not a rotation."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ def manhattan_rotation(
 
     normals: (N, 3), unit, in the camera frame (x right, y down, z forward), towards the camera.
     segments: (M, 4), ends u0 v0 u1 v1 in pixels of `camera`; sigma: of an end across the segment, pixels.
-    prior: (3, 3), the prediction, such as the rotation of the last frame: the answer is the frame near it, its axes
-        named as there; prior_sigma_deg: how far it may be off. Without one, frames over all of SO(3) are tried, and
-        the axes are named so that the rotation is closest to the identity.
+    prior: (3, 3), the prediction, such as the rotation of the last frame: the result is near it, with the same names
+        of the axes; prior_sigma_deg: its standard deviation. Without a prior, all of SO(3) is searched, and the axes
+        are named so that the rotation is closest to the identity.
     weights: (N,), 0 to 1, of the normals.
-    normals_sigma_deg: what the normals of one plane get wrong together, degrees.
+    normals_sigma_deg: common error of the normals of one plane, degrees.
     """
     votes = _check.numbers("normals", np.empty((0, 3)) if normals is None else normals, ("N", 3), np.float32)
     ends = _check.numbers("segments", np.empty((0, 4)) if segments is None else segments, ("M", 4))
@@ -89,8 +89,9 @@ def relative_pose(
 ) -> RelativePose:
     """The motion between two views, up to its length, from matches some of which may be wrong.
 
-    pixels0, pixels1: (N, 2), the same thing in both images, pixels; sigma: of each coordinate, pixels.
-    start: (4, 4), camera 0 to camera 1: is refined. Without one it is searched for, for turns up to some 10 degrees.
+    pixels0, pixels1: (N, 2), matches in both images, pixels; sigma: of each coordinate, pixels.
+    start: (4, 4), camera 0 to camera 1, which is refined. Without it the motion is searched for, for turns up to about
+        10 degrees.
     """
     a, b = _matches(pixels0, pixels1)
     if start is not None:
@@ -111,7 +112,7 @@ def translation_from_rotation(
 ) -> Translation:
     """The direction of the motion between two views whose rotation is known.
 
-    rotation: (3, 3), camera 0 to camera 1; rotation_sigma_deg: how far it may be off about each axis, degrees.
+    rotation: (3, 3), camera 0 to camera 1; rotation_sigma_deg: its standard deviation about each axis, degrees.
     pixels0, pixels1, sigma: as in relative_pose.
     """
     a, b = _matches(pixels0, pixels1)
@@ -174,9 +175,9 @@ def triangulate_lines(
     """Lines from two or more views of known poses.
 
     poses: (V, 4, 4), camera to world.
-    segments: (N, V, 4), what each view shows of each line, ends u0 v0 u1 v1 in pixels; NaN where it shows nothing. The
-        ends need not be the same points of the line. sigma: of an end across the segment, pixels.
-    directions: (N, 3), of each line in the world, such as an axis of the room; NaN where it is not known.
+    segments: (N, V, 4), the observed part of each line in each view, ends u0 v0 u1 v1 in pixels; NaN where there is
+        none. The ends need not be the same points of the line. sigma: of an end across the segment, pixels.
+    directions: (N, 3), of each line in the world, such as a Manhattan axis; NaN where not known.
     min_parallax_deg: largest angle between two of the planes through a camera and its segment: less is LOW_PARALLAX;
         half of it is enough where the direction is known.
     """
@@ -209,16 +210,16 @@ def bundle_adjust(
     sigma: float = 1.0,
     max_iterations: int = 50,
 ) -> BundleAdjustment:
-    """Poses, points and lines that agree best with what the views see. Wrong observations pull less (Cauchy's loss).
+    """Poses, points and lines that fit the observations best. Wrong observations count less (Cauchy's loss).
 
     poses: (V, 4, 4), camera to world, to start from.
     points, pixels: (N, 3) in the world, to start from, and (N, V, 2), where each view sees each point; NaN where it does
         not. sigma: of each coordinate, and of a segment's end across it, pixels.
     lines, segments: (M, 2, 3), two points on each line, and (M, V, 4), ends u0 v0 u1 v1 of what each view shows of it.
-    held: (V,), True for poses that stay as they are; one at least. Without it the first stays. Where one alone stays,
-        its distance to the farthest other camera stays as well, since pixels leave the scale open.
+    held: (V,), True for poses that are fixed; at least one. Default: the first. If only one is fixed, its distance to
+        the farthest other camera is fixed as well, since pixels do not determine the scale.
 
-    Points and lines that fewer than two views see stay as they are, and so do poses of views that see none of the others.
+    Points and lines seen by fewer than two views are not changed, nor are poses of views that see none of the others.
     """
     views = _check.numbers("poses", poses, ("V", 4, 4))
     places = _check.numbers("points", points, ("N", 3))

@@ -10,7 +10,7 @@ from ._types import Floats, Lines, Planes, Trajectory
 
 
 class Map:
-    """A map that was read from a file, as System has it."""
+    """A map from a file, with the methods of System."""
 
     def __init__(self, loaded: _sslam.Map) -> None:
         self._map = loaded

@@ -1,4 +1,4 @@
-"""All that `import sslam` offers."""
+"""All public names of `import sslam`."""
 
 from ._data import Dataset, evaluate, open_dataset, read_trajectory, write_trajectory
 from ._errors import Error, FinishedError, SettingsError, SslamWarning

@@ -69,26 +69,26 @@ class System:
     """Tracks a camera and builds a map.
 
     camera: an sslam.Camera, an sslam.WideLens, or the path of a camera file. Images of a wide lens are undistorted to its
-        view; poses, map and normals that are given are those of the view.
+        view; poses, map and given normals refer to the view.
     preset: one of sslam.presets().
-    normals: where surface normals come from: "onnx" (the network that comes with sslam), "onnx:FILE" (another one),
-        "depth" (registered depth images), "files:DIR", "none" (lines alone), or a function that is called with each
-        image as track() gets it and answers with normals as track(normals=...) takes them, or with None. "on-demand:"
-        before a source asks it where the lines of a frame leave its rotation open; "on-demand" alone, the default,
-        is that of the shipped network, where it is installed and the preset has a use for it.
+    normals: source of surface normals: "onnx" (the network that comes with sslam), "onnx:FILE" (another one), "depth"
+        (registered depth images), "files:DIR", "none" (lines alone), or a function that is called with each image of
+        track() and returns normals as for track(normals=...), or None. "on-demand:SOURCE" uses a source only where the
+        lines of a frame leave its rotation open. The default is "on-demand", with the network of sslam, or "none" if
+        it is not installed or the preset does not use normals.
     parameters: values that differ from their defaults, by the names of sslam.parameters(), in their units; or
         as keywords with two underscores for each dot: keyframes__max_turn=10.
     colours: order of the channels of images with three or four: "bgr" (as OpenCV reads them, no copy), or "rgb".
-    live: mapping and loop closing have a thread of their own, and tracking never waits for them; no two runs are
-        alike. Otherwise the same images give the same numbers, bit for bit.
-    seed: of everything random.
-    longest_side: images with a longer side are shrunk to it, pixels; 0: none is.
+    live: mapping and loop closing have their own thread, and tracking never waits for them; no two runs are alike.
+        Otherwise the same images give the same results, bit for bit.
+    seed: of all random samples.
+    longest_side: longest side of an image in pixels: larger images are shrunk; 0: no limit.
     final_pass: finish() adjusts the whole map and tracks every frame again in it; 100 kB of memory a frame.
     depth_factor: value of one metre in a uint16 depth image.
-    normals_sigma_deg: of normals that track() or a function gives: what those of one plane get wrong together, degrees.
+    normals_sigma_deg: common error of the normals of one plane, degrees, for normals of track() or of a function.
 
-    Methods may be called from any thread: they take turns. Callbacks are called in the thread that calls track(), after
-    the frame is done and with nothing held: they may call the system.
+    Methods may be called from any thread; calls are serialised. Callbacks are called in the thread that calls track(),
+    after the frame and without a lock: they may call the system.
     """
 
     def __init__(
@@ -163,18 +163,19 @@ class System:
         """Tracks the next image.
 
         image: uint8, (H, W), (H, W, 3) or (H, W, 4), of the camera's size.
-        stamp: seconds; later than that of the frame before.
-        depth: registered to the image, (H, W): uint16 in depth_factor, or float32 in metres; 0: unknown. It serves
-            normals="depth" alone.
-        mask: uint8 or bool, (H, W); 0: nothing is looked for there.
+        stamp: seconds; later than that of the previous frame.
+        depth: registered to the image, (H, W): uint16 in depth_factor, or float32 in metres; 0: unknown. Only for
+            normals="depth".
+        mask: uint8 or bool, (H, W); 0: no features are detected there.
         normals: float, (h, w, 3) or (h, w, 4), in the shape of the image but of any size: unit vectors in the camera
             frame (x right, y down, z forward) that point towards the camera, zero where there is none; the fourth
             channel is the probability of lying on a plane.
         name: of the image file, without folder and extension: finds the normals of "files:DIR".
 
-        Pixels are read in place, without a copy, where those of a row stand one after the other; they must not change
-        during the call. Raises TypeError for a wrong dtype, ValueError for a wrong shape or stamp, FinishedError after
-        finish(), and what a callback raises: the frame counts as tracked then, but for a function of normals.
+        Pixels are read in place, without a copy, if those of a row are contiguous; they must not change during the
+        call. Raises TypeError for a wrong dtype, ValueError for a wrong shape or stamp, FinishedError after
+        finish(), and any exception of a callback: then the frame counts as tracked, unless a function of normals
+        raised.
         """
         pixels = _check.pixels("image", image, (np.uint8,), (1, 3, 4))
         when = _check.real("stamp", stamp)
@@ -229,8 +230,8 @@ class System:
         warnings.warn(line, SslamWarning, stacklevel=level)
 
     def on(self, event: str, callback: Callback) -> Callback:
-        """Has callback(result) called after each frame with this event, of those in sslam.EVENTS; at "warning" it is
-        callback(line), and without any a warning is given to Python's `warnings`."""
+        """Calls callback(result) after each frame with this event of sslam.EVENTS. For "warning" it is callback(line);
+        without such a callback, warnings go to Python's `warnings`."""
         self._of_event(event)
         if not callable(callback):
             raise TypeError(f"callback: expected a function, not {type(callback).__name__}")
@@ -238,7 +239,7 @@ class System:
         return callback
 
     def off(self, event: str, callback: Callable[[Any], Any]) -> None:
-        """Undoes on(event, callback)."""
+        """Removes a callback of on(event, callback)."""
         if callback not in self._of_event(event):
             raise ValueError(f"callback: {callback!r} is not called at {event}")
         self._callbacks[event].remove(callback)
@@ -249,7 +250,7 @@ class System:
         return self._callbacks[event]
 
     def finish(self) -> bool:
-        """No more images: takes in what mapping has still to do. True if that closed a loop. A second call does
+        """Ends the input: waits for mapping and runs the final pass. True if that closed a loop. A second call does
         nothing."""
         return self._tracking.finish()
 
@@ -268,19 +269,19 @@ class System:
         return Trajectory(*self._tracking.keyframes())
 
     def trajectory(self) -> Trajectory:
-        """One pose for each frame that has one in the map, by the map as it is now."""
+        """The poses of all tracked frames by the current map."""
         return Trajectory(*self._tracking.trajectory())
 
     def latest(self) -> Latest:
-        """Where the camera was last: never waits for a frame that is being tracked."""
+        """The latest pose; never waits for a frame that is being tracked."""
         return Latest(*self._tracking.latest())
 
     def save(self, path: Path) -> None:
-        """The map as a file."""
+        """Writes the map to a file."""
         self._tracking.save(_check.path("path", path))
 
     def load(self, path: Path) -> None:
-        """Goes on in the map of a file: frames are lost until one is recognised in it."""
+        """Continues in the map of a file: frames are lost until one is recognised in it."""
         self._tracking.load(_check.path("path", path))
 
     def save_trajectory(self, path: Path) -> None:
@@ -288,25 +289,25 @@ class System:
         self._tracking.save_trajectory(_check.path("path", path))
 
     def localise_only(self, on: bool = True) -> None:
-        """True: no keyframe is made and no map begun: the camera is looked for in the map as it is."""
+        """True: the map is not changed: no keyframe is made and no map begun."""
         self._tracking.localise_only(bool(on))
 
     def parameters(self) -> List[Parameter]:
-        """Every parameter with the value that is in use."""
+        """Every parameter with its current value."""
         return [Parameter(*values) for values in self._tracking.parameters()]
 
     @property
     def camera(self) -> Camera:
-        """Of the images that track() takes."""
+        """The camera of the images of track()."""
         return self._tracking.camera
 
     @property
     def read_out(self) -> float:
-        """Of a rolling shutter, as finish() has found it: seconds from the first row of an image to the last. 0:
-        all rows are read at once, or nothing is known."""
+        """Read-out time of a rolling shutter in seconds, first row to last, estimated by finish(). 0: a global
+        shutter, or not known."""
         return self._tracking.read_out
 
     @property
     def frames(self) -> int:
-        """Tracked so far."""
+        """Number of frames so far."""
         return self._tracking.frames

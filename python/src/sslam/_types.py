@@ -1,5 +1,5 @@
-"""What the package answers with, as named tuples of numpy arrays. All arrays are copies: they stay as they are when
-the system goes on."""
+"""The results of the package, as named tuples of numpy arrays. All arrays are copies, which do not change when the
+system goes on."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Planes(NamedTuple):
 
 
 class Latest(NamedTuple):
-    """Where the camera was last."""
+    """The latest pose."""
 
     stamp: float
     """seconds"""
@@ -79,7 +79,7 @@ class Preset(NamedTuple):
 
 @dataclass(frozen=True)
 class Frame:
-    """Of a dataset."""
+    """A frame of a dataset."""
 
     image: NDArray[np.uint8]
     """(H, W, 3), blue, green, red, as System.track takes it"""

@@ -1,4 +1,4 @@
-"""The folder of a run for other programs' viewers, whose packages are imported when they are asked for."""
+"""Converts the folder of a run for viewers of other packages, which are imported on demand."""
 
 from __future__ import annotations
 
@@ -130,13 +130,14 @@ def to_rerun(run: Path, out: Path, *, images: bool = True) -> None:
 
     run: the folder that `sslam run --out` has written to.
     out: the file, *.rrd. An older one is overwritten.
-    images: as JPEG, from the run's dataset where that is still there; else a warning.
+    images: adds the images of the run's dataset as JPEG; a warning if it no longer exists.
 
-    world/points and world/lines have the colours that were seen, world/planes are the map's planes, which one sees
-    through, world/model is the textured model of `--dense` where the run has one. world/path is the camera's path,
-    world/camera its pose by time, world/camera/image the camera and its images, inliers the features that agree with
-    each frame's pose.
-    Raises sslam.Error for a folder that is no run's, and ImportError without the package.
+    world/points and world/lines have their observed colours, world/planes are the map's planes (translucent),
+    world/model is the textured model of `--dense` if the run has one. world/path is the camera's path, world/camera its
+    pose over time, world/camera/image the camera and its images, inliers the number of features that agree with each
+    frame's pose.
+
+    Raises sslam.Error for a folder that is not a run, and ImportError without the package.
     """
     source = _Run(run)
     rr = _package("rerun", "rerun-sdk")
@@ -206,7 +207,7 @@ def to_open3d(run: Path) -> Open3dScene:
 
     run: the folder that `sslam run --out` has written to.
 
-    Raises sslam.Error for a folder that is no run's, and ImportError without the package.
+    Raises sslam.Error for a folder that is not a run, and ImportError without the package.
     """
     source = _Run(run)
     o3d = _package("open3d", "open3d")

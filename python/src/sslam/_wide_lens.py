@@ -1,4 +1,4 @@
-"""Lenses that see more than a pinhole can."""
+"""Lenses that are too wide for a pinhole."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ def view_angle(name: str, degrees: Optional[float]) -> float:
 
 
 class WideLens:
-    """A lens that is too wide for a pinhole, and the view of a pinhole that its images are undistorted to.
+    """A lens that is too wide for a pinhole, with the pinhole view that its images are undistorted to.
 
     path: a camera file with such a lens, and with the size of its images.
-    fov: of the view, degrees across, 30 to 140; 110, or what the lens sees, by itself.
+    fov: horizontal angle of the view in degrees, 30 to 140; default 110, or less if the lens sees less.
 
-    Raises sslam.Error when the file has none, or the lens sees less than that.
+    Raises sslam.Error if the file has no such lens, or the lens sees less than `fov`.
     """
 
     def __init__(self, path: Path, fov: Optional[float] = None) -> None:
@@ -42,20 +42,20 @@ class WideLens:
 
     @property
     def camera(self) -> Camera:
-        """That of the view."""
+        """The camera of the view."""
         return self._lens.camera
 
     @property
     def fov(self) -> float:
-        """Of the view, degrees across."""
+        """Horizontal angle of the view, degrees."""
         return self._lens.fov
 
     def image(self, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """What the view shows of an image of the lens: uint8, (H, W), (H, W, 3) or (H, W, 4)."""
+        """Undistorts an image of the lens to the view: uint8, (H, W), (H, W, 3) or (H, W, 4)."""
         return self._lens.image(_check.pixels("image", image, (np.uint8,), (1, 3, 4)))
 
     def mask(self, mask: Optional[NDArray[Any]] = None) -> Optional[NDArray[np.uint8]]:
-        """Which pixels of the view to use, of an image of the lens with this mask (uint8 or bool, (H, W)); None: all."""
+        """The mask of the view for an image of the lens with this mask (uint8 or bool, (H, W)); None: all pixels."""
         if mask is not None:
             mask = _check.pixels("mask", mask, (np.uint8, np.bool_), (1,)).view(np.uint8)
         return self._lens.mask(mask)
