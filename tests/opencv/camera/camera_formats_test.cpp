@@ -203,6 +203,18 @@ TEST_CASE("A matrix as programs print it, and under the names of Open3D and ARKi
   check_camera_values(read_written(text), kWritten, {}, 0, 0);
 }
 
+TEST_CASE("Frames with focal lengths of their own are told, with how far they go") {
+  const auto notes = [](const std::string& second) {
+    const std::string rest = ", \"fl_y\": 500, \"cx\": 320, \"cy\": 240, \"w\": 640, \"h\": 480}";
+    const CameraFile file =
+        read_written("{\"frames\": [{\"fl_x\": 500" + rest + ", {\"fl_x\": " + second + rest + "]}");
+    CHECK(file.camera.pinhole.fx == 500);
+    return file.notes.at(0);
+  };
+  CHECK(notes("501").ends_with("the camera is that of the first of its frames"));
+  CHECK(notes("620").ends_with("of its frames; their focal lengths go from 500 to 620 pixels"));
+}
+
 TEST_CASE("An angle of view in degrees is told") {
   check_refused(
       "{\"camera_angle_x\": 67.4, \"w\": 640, \"h\": 480, \"frames\": []}",

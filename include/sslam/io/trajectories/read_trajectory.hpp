@@ -147,6 +147,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
 [[nodiscard]] inline PoseFile read_transforms_poses(const std::filesystem::path& path, Warnings& warnings,
                                                     std::filesystem::path times) {
   const Transforms transforms = read_transforms(path, warnings);
+  transforms.bad_poses.settle(transforms.frames.size(), warnings);
   PoseFile result;
   result.no_pose = transforms.no_pose;
   std::vector<double> clock;

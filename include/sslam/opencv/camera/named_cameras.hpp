@@ -152,7 +152,17 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
   const TextNode* const frames = root.find("frames");
   if (&keys.map() == &root && frames != nullptr && !frames->items.empty()) {
     file = read_transforms(CameraKeys(frames->items.front(), keys.file(), "frames[0]."), root);
-    file.notes.push_back(keys.file() + ": the camera is that of the first of its frames");
+    double least = file.camera.pinhole.fx, most = least;
+    for (const TextNode& frame : frames->items) {
+      const double focal = CameraKeys(frame, keys.file(), "frames.").optional({"fl_x", "fx"}, least, kFocal);
+      least = std::min(least, focal);
+      most = std::max(most, focal);
+    }
+    constexpr double kSame = 1.01;
+    file.notes.push_back(keys.file() + ": the camera is that of the first of its frames" +
+                         (most > kSame * least ? "; their focal lengths go from " + short_text(least) +
+                                                     " to " + short_text(most) + " pixels"
+                                               : ""));
     return file;
   }
   keys.fail(keys.where() + "fl_x is missing; expected " + kFocal);
