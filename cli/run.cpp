@@ -22,6 +22,7 @@
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/help_formatter.hpp"
+#include "cli/shell/number_checks.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "cli/stream/stream_name.hpp"
@@ -61,6 +62,7 @@ void add_input_options(CLI::App& command, RunSettings& s) {
       .add_option("--fps", s.frame_rate,
                   "Frames a second, for images without stamps, in a folder or through a pipe")
       ->capture_default_str()
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   command
       .add_option("--longest-side", s.longest_side,
@@ -79,6 +81,7 @@ void add_input_options(CLI::App& command, RunSettings& s) {
       ->type_name("DIR");
   command.add_option("--retry", s.retry, "Seconds that a lost camera or stream is tried again for")
       ->capture_default_str()
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 86400.0));
   put_in_group(
       command, "Input",
@@ -103,7 +106,9 @@ void add_tracking_options(CLI::App& command, RunSettings& s) {
   };
   command.add_flag_callback("--list-parameters", list, "Print what --set can change, and stop")
       ->trigger_on_parse();
-  command.add_option("--seed", s.seed, "Of everything random")->capture_default_str();
+  command.add_option("--seed", s.seed, "Of everything random")
+      ->capture_default_str()
+      ->check(number_from_zero());
   command
       .add_option("--map", s.map,
                   "Go on in the map of an earlier run, its map.sslam: poses are in that map's world")
@@ -124,6 +129,7 @@ void add_tracking_options(CLI::App& command, RunSettings& s) {
           "--read-out", tell_read_out,
           "From the first row of an image to the last, of a rolling shutter; 0: all rows at once; without "
           "it, the map is asked for it after the last frame")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 0.2))
       ->type_name("SECONDS");
   put_in_group(command, "Tracking",
@@ -159,6 +165,7 @@ void add_output_options(CLI::App& command, RunSettings& s) {
                   "Seconds after which the state of the run is kept in --out, for --resume, again and again; "
                   "0: never; default 60, and never with --live, --view, --video, --record, --dense or a "
                   "stream")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
   put_in_group(command, "Output",

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/shell/number_checks.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/opencv/camera/wide_view.hpp"
 
@@ -22,10 +23,12 @@ inline void add_camera_options(CLI::App& command, std::string& file, double& foc
       command
           .add_option("--focal", focal,
                       "Focal length in pixels, of a camera without calibration and distortion")
+          ->check(finite_number())
           ->check(CLI::PositiveNumber)
           ->type_name("PIXELS")
           ->excludes(camera);
   command.add_option("--fov", fov, "As --focal, by the field of view across the image")
+      ->check(finite_number())
       ->check(CLI::Range(3.0, 150.0))
       ->type_name("DEGREES")
       ->excludes(camera)
@@ -37,6 +40,7 @@ inline void add_undistort_option(CLI::App& command, double& fov) {
       .add_option("--undistort-fov", fov,
                   "Of a lens that is too wide for a pinhole: degrees across of the view that its images are "
                   "undistorted to; default 110, or what it sees")
+      ->check(finite_number())
       ->check(CLI::Range(30.0, WideView::kWidest))
       ->type_name("DEGREES");
 }
