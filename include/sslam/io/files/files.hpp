@@ -118,6 +118,12 @@ inline void sort_by_name(std::vector<std::filesystem::path>& paths) {
   });
 }
 
+// A link whose file is not there. Listed as a file, so that who reads it says so.
+[[nodiscard]] inline bool is_dead_link(const std::filesystem::directory_entry& entry) {
+  std::error_code ignored;
+  return entry.is_symlink(ignored) && !entry.exists(ignored);
+}
+
 // Files in a folder (not below it) that `wanted` accepts, in natural order. Empty when there is no such
 // folder.
 template <class Predicate>
@@ -129,7 +135,8 @@ template <class Predicate>
        !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
     std::error_code ignored;
     const std::filesystem::path name = it->path().filename();
-    if (it->is_regular_file(ignored) && !is_apple_double(name) && wanted(name)) files.push_back(it->path());
+    if ((it->is_regular_file(ignored) || is_dead_link(*it)) && !is_apple_double(name) && wanted(name))
+      files.push_back(it->path());
   }
   sort_by_name(files);
   return files;
