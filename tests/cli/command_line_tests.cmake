@@ -30,3 +30,9 @@ foreach(options "--fps;nan" "--focal;nan" "--fov;-nan" "--retry;nan" "--read-out
 endforeach()
 sslam_cli_test(NAME "no number for eval --offset" ARGS eval a b --offset nan CODE 2 ERR "^sslam: error: --offset: 'nan' is not a number")
 sslam_cli_test(NAME "a seed below 0" ARGS run room --seed -1 CODE 2 ERR "^sslam: error: --seed: '-1' is not a whole number from 0 on")
+# Options in a file as Windows' editors write it.
+string(ASCII 239 187 191 mark)
+string(ASCII 13 10 line_end)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/windows.toml "${mark}end = 2${line_end}normals = \"none\"${line_end}")
+sslam_cli_test(NAME "options in a file with a byte order mark" ARGS run nowhere --config ${CMAKE_CURRENT_BINARY_DIR}/windows.toml CODE 1
+               ERR "^sslam: error: nowhere: no such file or folder\n$")
