@@ -21,6 +21,7 @@
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
+#include "cli/shell/number_checks.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "sslam/core/types.hpp"
@@ -166,10 +167,12 @@ void add_board_options(CLI::App& command, BoardSettings& board) {
                                                      : "'" + text + "' is not a size such as 9x6 (3 to 100)";
       });
   command.add_option("--square", board.square, "side of a square in metres; default 0.025")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   command
       .add_option("--marker", board.marker,
                   "side of a ChArUco marker in metres; default three quarters of a square")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   command
       .add_option("--dictionary", board.dictionary,
@@ -194,6 +197,7 @@ void add_calibrate_command(CLI::App& app) {
       ->type_name("FILE");
   command
       ->add_option("--fps", s->frame_rate, "frames a second for the camera file; default those of the video")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   command->add_flag(
       "--k3", s->k3,

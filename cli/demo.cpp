@@ -14,6 +14,7 @@
 #include "cli/run.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
+#include "cli/shell/number_checks.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "cli/synth.hpp"
 
@@ -64,7 +65,9 @@ void add_demo_command(CLI::App& app) {
   command->add_option("--frames", s->frames, "Number of frames")
       ->capture_default_str()
       ->check(CLI::Range(10, 100000));
-  command->add_option("--seed", s->seed, "Seed of the room and of the run")->capture_default_str();
+  command->add_option("--seed", s->seed, "Seed of the room and of the run")
+      ->capture_default_str()
+      ->check(number_from_zero());
   command->add_option("--normals", s->normals, kNormalsMeaning)->type_name("SOURCE");
   add_progress_options(*command, s->verbosity, true);
   command->callback([s] { run_demo(*s); });

@@ -17,6 +17,7 @@
 #include "cli/shell/choice_option.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/messages.hpp"
+#include "cli/shell/number_checks.hpp"
 #include "sslam/io/evaluation/evaluation.hpp"
 #include "sslam/io/plots/comparison_view.hpp"
 
@@ -128,13 +129,15 @@ void add_eval_command(CLI::App& app) {
   eval->add_option("--times", settings->times,
                    "file of stamps, one a row, for trajectories without any (KITTI)")
       ->type_name("FILE");
-  eval->add_option("--offset", settings->offset, "seconds to add to the stamps of ESTIMATE; default 0");
+  eval->add_option("--offset", settings->offset, "seconds to add to the stamps of ESTIMATE; default 0")
+      ->check(finite_number());
   eval->add_flag("--find-offset", settings->find_offset,
                  "find the offset between the clocks from turn rates and speeds, for each ESTIMATE");
   add_choice(*eval, "--align", options.alignment, kAlignmentNames,
              "sim3 (rotation, translation, scale), se3 (no scale) or none; default sim3");
   eval->add_option("--max-difference", options.max_difference,
                    "largest difference between the stamps of a pair; default 0.02")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   eval->add_option("--delta", settings->deltas,
                    "steps of the relative error, such as 1f (frames) or 0.5s (seconds); default 1f 1s")

@@ -22,6 +22,7 @@
 #include "cli/shell/config_file.hpp"
 #include "cli/shell/exit_code.hpp"
 #include "cli/shell/help_formatter.hpp"
+#include "cli/shell/number_checks.hpp"
 #include "cli/shell/option_info.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "cli/stream/stream_name.hpp"
@@ -60,6 +61,7 @@ void add_input_options(CLI::App& command, RunSettings& s) {
       .add_option("--fps", s.frame_rate,
                   "Frames a second, for images without stamps, in a folder or through a pipe")
       ->capture_default_str()
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   command
       .add_option("--longest-side", s.longest_side,
@@ -75,6 +77,7 @@ void add_input_options(CLI::App& command, RunSettings& s) {
       ->type_name("DIR");
   command.add_option("--retry", s.retry, "Seconds during which a lost camera or stream is tried again")
       ->capture_default_str()
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 86400.0));
   put_in_group(
       command, "Input",
@@ -99,7 +102,9 @@ void add_tracking_options(CLI::App& command, RunSettings& s) {
   };
   command.add_flag_callback("--list-parameters", list, "Print all parameters for --set, and stop")
       ->trigger_on_parse();
-  command.add_option("--seed", s.seed, "Seed of all random samples")->capture_default_str();
+  command.add_option("--seed", s.seed, "Seed of all random samples")
+      ->capture_default_str()
+      ->check(number_from_zero());
   command
       .add_option("--map", s.map,
                   "Continue in the map of an earlier run (map.sslam): poses are in the world of that map")
@@ -119,6 +124,7 @@ void add_tracking_options(CLI::App& command, RunSettings& s) {
       .add_option_function<double>("--read-out", tell_read_out,
                                    "Read-out time of a rolling shutter, from the first row to the last; 0: "
                                    "global shutter; default: estimated after the last frame")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 0.2))
       ->type_name("SECONDS");
   put_in_group(command, "Tracking",
@@ -150,6 +156,7 @@ void add_output_options(CLI::App& command, RunSettings& s) {
       .add_option("--checkpoint", s.checkpoint,
                   "Interval of checkpoints, which --resume continues from; 0: none; default 60, and none "
                   "with --live, --view, --video, --record, --dense or a stream")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
   put_in_group(command, "Output",

@@ -12,12 +12,17 @@
 namespace sslam::cli {
 namespace {
 
-cv::Mat decode_file(std::string_view file, int flags, const std::string& name, cv::Size expected,
-                    std::string& why) {
+// `format`: what the message says of the file.
+cv::Mat decode_file(std::string_view file, std::string_view format, int flags, const std::string& name,
+                    cv::Size expected, std::string& why) {
   const std::vector<std::uint8_t> bytes(file.begin(), file.end());
   ImageHeader header;
   if (!check_image(name, bytes, header, why, expected)) return {};
-  return decode_image(name, bytes, header, flags, why);
+  cv::Mat image = decode_image(name, bytes, header, flags, why);
+  if (image.empty() && header.format == ImageFormat::kOther)
+    why = name + ": has the format \"" + io::shown_word(format) +
+          "\", which is not read; read are JPEG, PNG, WebP, TIFF and BMP";
+  return image;
 }
 
 // Says whose reason it is.
@@ -65,7 +70,8 @@ cv::Mat BagReader::read(std::int64_t index, const std::string& name, std::string
   }
 }
 
-cv::Mat BagReader::image(std::int64_t index, const std::string& name, cv::Size expected, std::string& why) {
+cv::Mat BagReader::image(std::int64_t index, const std::string& frame, cv::Size expected, std::string& why) {
+  const std::string name = frame + " on " + stream_.topic;
   return read(index, name, why,
               [&](const io::MessageFields& fields) { return decode(fields, name, expected, why); });
 }
@@ -74,11 +80,13 @@ cv::Mat BagReader::decode(const io::MessageFields& fields, const std::string& na
                           std::string& why) const {
   if (stream_.kind == io::BagKind::kImage)
     return named(colour_of(io::read_image_message(fields), expected, why), name, why);
-  const std::string_view file = io::read_compressed_image(fields).data;
-  return decode_file(file, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH, name, expected, why);
+  const io::CompressedImageMessage message = io::read_compressed_image(fields);
+  return decode_file(message.data, message.format, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH, name, expected,
+                     why);
 }
 
-cv::Mat BagReader::depth(std::int64_t index, const std::string& name, std::string& why) {
+cv::Mat BagReader::depth(std::int64_t index, const std::string& frame, std::string& why) {
+  const std::string name = frame + " on " + stream_.topic;
   return read(index, name, why,
               [&](const io::MessageFields& fields) { return decode_depth(fields, name, why); });
 }
@@ -90,7 +98,7 @@ cv::Mat BagReader::decode_depth(const io::MessageFields& fields, const std::stri
   const io::CompressedImageMessage message = io::read_compressed_image(fields);
   if (message.format.find("32FC1") != std::string_view::npos)
     throw Error("has floats as compressedDepth, which is not read; expected 16UC1");
-  cv::Mat depth = decode_file(depth_file_of(message), cv::IMREAD_UNCHANGED, name, {}, why);
+  cv::Mat depth = decode_file(depth_file_of(message), message.format, cv::IMREAD_UNCHANGED, name, {}, why);
   if (!depth.empty() && depth.type() != CV_16UC1) throw Error("is no depth of 16 bit");
   return depth;
 }

@@ -19,13 +19,13 @@ class BagReader {
   // `stream` of `bag`; both outlive the reader.
   BagReader(const io::BagFrames& bag, const io::BagFrames::Stream& stream) : bag_(bag), stream_(stream) {}
 
-  // BGR of 8 or 16 bit, as stored. `name`: of the frame, for people; `expected`: a size that is let in
-  // however large. Empty, with the reason in `why`, when it cannot be read.
-  [[nodiscard]] cv::Mat image(std::int64_t index, const std::string& name, cv::Size expected,
+  // BGR of 8 or 16 bit, as stored. `frame`: its name, for people; `expected`: a size that is let
+  // in however large. Empty, with the reason in `why`, when it cannot be read.
+  [[nodiscard]] cv::Mat image(std::int64_t index, const std::string& frame, cv::Size expected,
                               std::string& why);
 
   // Millimetres of 16 bit or metres as floats, with 0 for what was not measured. Empty as above.
-  [[nodiscard]] cv::Mat depth(std::int64_t index, const std::string& name, std::string& why);
+  [[nodiscard]] cv::Mat depth(std::int64_t index, const std::string& frame, std::string& why);
 
  private:
   [[nodiscard]] std::string_view message(std::int64_t index);

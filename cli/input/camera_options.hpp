@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/shell/number_checks.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
 #include "sslam/opencv/camera/wide_view.hpp"
 
@@ -22,10 +23,12 @@ inline void add_camera_options(CLI::App& command, std::string& file, double& foc
       command
           .add_option("--focal", focal,
                       "Focal length in pixels, for a camera without a calibration; no distortion")
+          ->check(finite_number())
           ->check(CLI::PositiveNumber)
           ->type_name("PIXELS")
           ->excludes(camera);
   command.add_option("--fov", fov, "Horizontal field of view, in place of --focal")
+      ->check(finite_number())
       ->check(CLI::Range(3.0, 150.0))
       ->type_name("DEGREES")
       ->excludes(camera)
@@ -37,6 +40,7 @@ inline void add_undistort_option(CLI::App& command, double& fov) {
       .add_option("--undistort-fov", fov,
                   "Horizontal angle of the pinhole view that images of a wide lens are undistorted to; "
                   "default 110, or less if the lens sees less")
+      ->check(finite_number())
       ->check(CLI::Range(30.0, WideView::kWidest))
       ->type_name("DEGREES");
 }

@@ -92,6 +92,7 @@ CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& datase
   const cv::Size claimed = known ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
   const FirstImage first = find_first_image(dataset, claimed);
   if (first.stored.empty()) {
+    if (dataset.bag) throw Error(first.why);  // its other messages are alike
     if (claimed.empty()) throw Error(first.why + "; the camera's size is not known without it");
     CameraChoice choice = *known;  // each frame tells
     take_view(choice, wish.undistort_fov);

@@ -39,8 +39,11 @@ cv::Mat FrameReader::read(const io::FrameEntry& entry, std::string& why) {
 }
 
 cv::Mat FrameReader::read_depth(const io::FrameEntry& entry, std::string& why) {
-  return depths_ ? depths_->depth(entry.index, label(entry), why)
-                 : load_depth(entry.depth, dataset_.layout, why);
+  cv::Mat depth = depths_ ? depths_->depth(entry.index, label(entry), why)
+                          : load_depth(entry.depth, dataset_.layout, why);
+  if (depth.empty() || depth.type() == CV_16UC1 || depth.type() == CV_32FC1) return depth;
+  why = entry.depth + ": is no depth image; expected one channel of 16 bit, or of floats";
+  return {};
 }
 
 // As stored, of 8 or 16 bit; `turn`: what is to be done with it.

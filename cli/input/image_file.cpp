@@ -2,6 +2,7 @@
 #include "cli/input/image_file.hpp"
 
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include "cli/input/image_limit.hpp"
@@ -69,6 +70,9 @@ cv::Mat decode_image(const fs::path& path, const std::vector<std::uint8_t>& byte
   }
   if (!image.empty()) return image;
   why = path.string() + ": cannot decode this image";
+  constexpr std::string_view kPointer = "version https://git-lfs";
+  if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kPointer))
+    why += ": it is a pointer of Git LFS; `git lfs pull` fetches the image";
   if (header.format == ImageFormat::kHeif) why += ": it is HEIC or AVIF; convert it to JPEG or PNG";
   if (header.several) why += std::string(": it holds several; ") + kTakeApart;
   return image;

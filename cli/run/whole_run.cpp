@@ -102,6 +102,7 @@ void WholeRun::open() {
   if (camera_.wide) view_.emplace(*camera_.wide, camera_.view_fov);
   if (!settings_.mask.empty())
     masks_ = MaskSource(settings_.mask, {camera_.camera.width, camera_.camera.height});
+  print_warnings(masks_.warnings());
   wanted_ = system_settings();
   head_ = begun_checkpoint(settings_.words, dataset_, camera_.camera);
   if (settings_.resumed) check_resumed(*settings_.resumed, dataset_, camera_.camera, settings_.out);

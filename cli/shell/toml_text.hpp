@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
@@ -53,7 +54,7 @@ namespace toml_detail {
 // many parts that a table for each would overflow the stack; lists within lists are left to the parser.
 [[nodiscard]] inline std::string read_toml_text(const std::filesystem::path& path) {
   constexpr std::size_t kLongest = 16 << 20, kMostDots = 16;
-  std::string text = io::read_text(path, kLongest);
+  std::string text = io::plain_text(io::read_text(path, kLongest));
   if (toml_detail::most_dots(text) > kMostDots)
     throw Error(path.string() + ": a key has more than " + std::to_string(kMostDots + 1) +
                 " parts with dots between them; expected few");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/shell/choice_option.hpp"
+#include "cli/shell/number_checks.hpp"
 #include "cli/shell/progress_options.hpp"
 #include "cli/synth/camera_look.hpp"
 #include "cli/synth/synth_names.hpp"
@@ -37,10 +38,7 @@ CLI::Validator between(double low, double high) {
 
 void add_scene_options(CLI::App& synth, SynthSettings& s) {
   synth.add_option("--seed", s.house.seed, "seed of layout, materials, light, path and noise; default 1")
-      ->check([](const std::string& text) {
-        return io::parse_number<std::uint64_t>(text) ? std::string()
-                                                     : "'" + text + "' is not a whole number from 0 on";
-      });
+      ->check(number_from_zero());
   add_choice(synth, "--texture", s.house.richness, kRichnessNames,
              "rich, mixed or poor (plain paint); default rich");
   add_choice(

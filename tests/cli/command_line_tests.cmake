@@ -23,3 +23,16 @@ sslam_cli_test(NAME "help of a command" ARGS help run OUT "\nInput:\n" "\nTracki
 sslam_cli_test(NAME "help of everything" ARGS help OUT "Subcommands:\n +run +Track a sequence" "sslam help run")
 sslam_cli_test(NAME "a number below an endless range" ARGS run room --fps 0 CODE 2
                ERR "^sslam: error: --fps: Value 0 is out of range; expected a positive number .see sslam --help.\n$")
+# Numbers that a range lets through: nan is not outside of any.
+foreach(options "--fps;nan" "--focal;nan" "--fov;-nan" "--retry;nan" "--read-out;nan" "--checkpoint;nan" "--fps;inf")
+  string(JOIN " " typed ${options})
+  sslam_cli_test(NAME "no number for run ${typed}" ARGS run room ${options} CODE 2 ERR "^sslam: error: --[a-z-]+: '[-a-z]+' is not a number .see sslam --help.\n$")
+endforeach()
+sslam_cli_test(NAME "no number for eval --offset" ARGS eval a b --offset nan CODE 2 ERR "^sslam: error: --offset: 'nan' is not a number")
+sslam_cli_test(NAME "a seed below 0" ARGS run room --seed -1 CODE 2 ERR "^sslam: error: --seed: '-1' is not a whole number from 0 on")
+# Options in a file as Windows' editors write it.
+string(ASCII 239 187 191 mark)
+string(ASCII 13 10 line_end)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/windows.toml "${mark}end = 2${line_end}normals = \"none\"${line_end}")
+sslam_cli_test(NAME "options in a file with a byte order mark" ARGS run nowhere --config ${CMAKE_CURRENT_BINARY_DIR}/windows.toml CODE 1
+               ERR "^sslam: error: nowhere: no such file or folder\n$")

@@ -184,4 +184,20 @@ TEST_CASE("images of 16 bit are read by the range that the first frames use, and
   CHECK(read(images, 8).second == Approx(64).margin(2));
 }
 
+TEST_CASE("a depth image that is none is named, with what it should be") {
+  const testing::ScratchFolder scratch;
+  io::Dataset dataset;
+  io::FrameEntry frame;
+  frame.depth = (scratch.path() / "d.png").string();
+  cli::FrameReader reader(dataset);
+  std::string why;
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC3}) {
+    REQUIRE(cv::imwrite(frame.depth, cv::Mat(kHeight, kWidth, type, cv::Scalar::all(7))));
+    CHECK(reader.read_depth(frame, why).empty());
+    CHECK(contains(why, "d.png: is no depth image; expected one channel of 16 bit, or of floats"));
+  }
+  REQUIRE(cv::imwrite(frame.depth, cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(7))));
+  CHECK(reader.read_depth(frame, why).type() == CV_16UC1);
+}
+
 }  // namespace frame_reader_test

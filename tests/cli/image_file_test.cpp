@@ -46,6 +46,9 @@ TEST_CASE("Whole images are decoded and others are refused by name") {
   scratch.write("text.bmp", "no image at all");
   CHECK(cli::load_image(scratch.path() / "text.bmp", cv::IMREAD_COLOR, why).empty());
   CHECK(contains(why, "text.bmp: cannot decode this image"));
+  scratch.write("pointer.png", "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n");
+  CHECK(cli::load_image(scratch.path() / "pointer.png", cv::IMREAD_COLOR, why).empty());
+  CHECK(contains(why, "pointer.png: cannot decode this image: it is a pointer of Git LFS"));
   CHECK(cli::load_image(scratch.path() / "none.png", cv::IMREAD_COLOR, why).empty());
   CHECK(contains(why, "none.png: no such image"));
 }

@@ -44,4 +44,9 @@ TEST_CASE("What is seldom right is a doubt") {
   CHECK(off.fault.empty());
   CHECK(check_camera({{525, 400, 319.5, 239.5}, {}, 640, 480}).doubts.size() == 1);
   CHECK(check_camera({{525, 525, 319.5, 239.5}, {0, 0, 0.05, 0, 0}, 640, 480}).doubts.size() == 1);
+  const CameraCheck cushion = check_camera({{525, 525, 319.5, 239.5}, {5, 0, 0, 0, 0}, 640, 480});
+  CHECK(cushion.fault.empty());
+  REQUIRE(cushion.doubts.size() == 1);
+  CHECK(holds(cushion.doubts[0], "moves corners of the image outwards by a factor of 1."));
+  CHECK(check_camera({{525, 525, 319.5, 239.5}, {0.4, 0, 0, 0, 0}, 640, 480}).doubts.empty());
 }

@@ -3,6 +3,7 @@
 // another camera, resolution or unit tracks badly, and nothing else tells.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -35,6 +36,19 @@ struct CameraCheck {
       folded += camera.distortion.undistort(camera.pinhole.unproject(pixel).head<2>(), ray) ? 0 : 1;
     }
   return folded / static_cast<double>((kSteps + 1) * (kSteps + 1));
+}
+
+// The most by which the distortion moves a corner of the image away from the middle, as a factor.
+[[nodiscard]] inline double largest_stretch(const Camera<double>& camera) noexcept {
+  double most = 1;
+  for (const double x : {0.0, camera.width - 1.0})
+    for (const double y : {0.0, camera.height - 1.0}) {
+      const Vec2<double> seen = camera.pinhole.unproject({x, y}).head<2>();
+      Vec2<double> ray;
+      if (camera.distortion.undistort(seen, ray) && ray.norm() > 0)
+        most = std::max(most, seen.norm() / ray.norm());
+    }
+  return most;
 }
 
 // Of a camera with its size.
@@ -93,6 +107,12 @@ struct CameraCheck {
                                 camera.width, camera.height));
   if (oblong > kOblong)
     check.doubts.push_back(told("fx %g and fy %g differ by a factor of %.2g", p.fx, p.fy, oblong));
+  constexpr double kStretched = 1.3;  // cushions of real lenses are weaker
+  if (const double stretch = largest_stretch(camera); stretch > kStretched)
+    check.doubts.push_back(told(
+        "the distortion moves corners of the image outwards by a factor of %.2g: are its coefficients those "
+        "of this lens, in the order k1 k2 p1 p2 k3?",
+        stretch));
   constexpr double kTangential = 0.03;
   if (std::max(std::abs(camera.distortion.p1), std::abs(camera.distortion.p2)) > kTangential)
     check.doubts.push_back(told("the tangential distortion p1 %g, p2 %g is large: is k3 in its place?",

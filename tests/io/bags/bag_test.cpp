@@ -105,11 +105,10 @@ TEST_CASE("A bag that lost its end, or was never closed, gives what there is") {
 TEST_CASE("A damaged chunk of a bag costs what is in it, and one line") {
   const ScratchFolder scratch;
   const std::string images = images_1(2);
-  const std::string bad_name = chunk_1(images, "rar");
   const std::string bad_inside = chunk_1(images.substr(0, images.size() - 1));
   std::string bad_size = chunk_1(images, "lz4");
   bad_size[bad_size.find("size=") + 5] ^= 1;
-  for (const std::string& bad : {bad_name, bad_size, bad_inside}) {
+  for (const std::string& bad : {bad_size, bad_inside}) {
     const std::string good = connection_1(3, "/cam/image_raw", kImage) + message_1(3, image_1(9));
     const io::Dataset dataset = read(scratch.path() / "a.bag", bag_1(bad + chunk_1(good)));
     CHECK(dataset.frames.back().stamp == 9);
@@ -121,6 +120,33 @@ TEST_CASE("A damaged chunk of a bag costs what is in it, and one line") {
   const io::Dataset mcap_file = read(scratch.path() / "a.mcap", mcap(head + broken + message(9, image_2(2))));
   CHECK(mcap_file.frames.size() == 1);
   CHECK(contains(mcap_file.warnings.at(0), "a damaged chunk at byte"));
+}
+
+TEST_CASE("A packing or an encoding that is not read is named, with what is read") {
+  const ScratchFolder scratch;
+  const auto bag = scratch.path() / "a.bag";
+  const std::string good = connection_1(3, "/cam/image_raw", kImage) + message_1(3, image_1(9));
+  const std::string rar = chunk_1(images_1(2), "rar");
+  const io::Dataset dataset = read(bag, bag_1(rar + rar + chunk_1(good)));
+  REQUIRE(dataset.warnings.size() == 1);
+  CHECK(contains(dataset.warnings[0],
+                 "a.bag: chunks that are packed as rar are left out; read are lz4, zstd, bz2 and none"));
+  CHECK(contains(error_of([&] { (void)read(bag, bag_1(rar)); }), "holds no images"));
+  CHECK(contains(error_of([&] { (void)read(bag, bag_1(rar)); }), "packed as rar"));
+
+  const auto file = scratch.path() / "a.mcap";
+  const std::string head = channel(9, "/i", "sensor_msgs/msg/Image");
+  const std::string records = head + message(9, image_2(1));
+  CHECK(contains(read(file, mcap(records + chunk(records, "brotli", 0))).warnings.at(0),
+                 "a.mcap: chunks that are packed as brotli are left out"));
+
+  const std::string video =
+      bag_1(connection_1(1, "/cam/video", "ffmpeg_msgs/Packet") + message_1(1, image_1(1)));
+  CHECK(contains(error_of([&] {
+                   (void)read(bag, video, {"/cam/video", {}});
+                 }),
+                 "--topic /cam/video names no topic with images (sensor_msgs/Image, CompressedImage), it has "
+                 "ffmpeg_msgs/Packet; there are none"));
 }
 
 TEST_CASE("Sizes that a bag claims are not believed") {

@@ -299,6 +299,30 @@ TEST_CASE("Videos are told by their name and filled in by who opens them") {
   for (const char* name : {"a.3gp", "a.ts", "a.m2ts", "a.gif"}) CHECK(io::is_video_name(name));
 }
 
+TEST_CASE("Links to images that are not there are told, not passed over") {
+  const ScratchFolder scratch;
+  for (int i = 0; i < 3; ++i)
+    std::filesystem::create_symlink(scratch.path() / "gone", scratch.path() / (std::to_string(i) + ".png"));
+  CHECK(contains(error_opening(scratch.path()), "0.png, which is not there (and 2 more bad entries of 3)"));
+  std::filesystem::create_symlink(scratch.write("there/3"), scratch.path() / "3.png");
+  for (const char* name : {"0.png", "1.png"}) std::filesystem::remove(scratch.path() / name);
+  const io::Dataset dataset = io::open_dataset(scratch.path());
+  CHECK(dataset.frames.size() == 1);
+  REQUIRE(dataset.warnings.size() == 1);
+  CHECK(contains(dataset.warnings[0], "2.png, which is not there: skipped"));
+}
+
+TEST_CASE("A list that names an image again says so") {
+  const ScratchFolder scratch;
+  for (const char* name : {"rgb/1.png", "rgb/2.png"}) scratch.write(name);
+  scratch.write("rgb.txt", "1.5 rgb/1.png\n1.6 rgb/1.png\n1.7 rgb/2.png\n");
+  const io::Dataset dataset = io::open_dataset(scratch.path());
+  CHECK(dataset.frames.size() == 3);
+  REQUIRE(dataset.warnings.size() == 1);
+  CHECK(
+      contains(dataset.warnings[0], "rgb.txt: 1 frames have an image that another one has, too, the first "));
+}
+
 TEST_CASE("What is no dataset is told what was looked for") {
   const ScratchFolder scratch;
   CHECK(contains(error_opening(scratch.path() / "none"), "no such file or folder"));

@@ -307,6 +307,42 @@ TEST_CASE("Colour and depth side by side are paired by name, else by time") {
   }
 }
 
+TEST_CASE("Folders of colour and depth may have capitals") {
+  const ScratchFolder scratch;
+  scratch.write("Color/00001.JPG");
+  scratch.write("Depth/00001.PNG");
+  const io::Dataset dataset = io::open_dataset(scratch.path());
+  CHECK(dataset.layout == io::Layout::kColourDepth);
+  CHECK(contains(dataset.frames.at(0).depth, "Depth/00001.PNG"));
+}
+
+TEST_CASE("Images of several kinds in one folder are not taken for one sequence") {
+  const ScratchFolder scratch;
+  const std::pair<std::string, std::string> kinds =
+      GENERATE(as<std::pair<std::string, std::string>>(), std::pair{"left_", ".png"},
+               std::pair{"", "_depth.png"}, std::pair{"cam0_", ".jpg"}, std::pair{"", ".png"});
+  const std::string other = kinds.first == "cam0_" ? "cam1_" : "";
+  CAPTURE(kinds.first, kinds.second);
+  for (const char* number : {"01", "02", "03"}) {
+    scratch.write(kinds.first + number + kinds.second);
+    scratch.write(other + number + ".jpg");
+  }
+  const std::string error = error_of([&] { (void)io::open_dataset(scratch.path()); });
+  CHECK(testing::is_one_line(error));
+  CHECK(contains(error, "holds images of several kinds side by side"));
+  CHECK(contains(error, "'" + kinds.first + "??" + kinds.second + "' (3)"));
+  CHECK(contains(error, "'" + other + "??.jpg' (3)"));
+  const auto glob = scratch.path() / (kinds.first + "??" + kinds.second);
+  CHECK(io::open_dataset(glob).frames.size() == 3);
+}
+
+TEST_CASE("Names of other forms among the images of a folder are no other kind") {
+  const ScratchFolder scratch;
+  for (const char* name : {"1.png", "2.png", "3.png", "4.png", "2_hdr.png", "title.png", "a7.png", "b8.png"})
+    scratch.write(name);
+  CHECK(io::open_dataset(scratch.path()).frames.size() == 8);
+}
+
 TEST_CASE("ETH3D has TUM's layout and a camera beside it") {
   const ScratchFolder scratch;
   scratch.write("rgb/1.png");
@@ -341,6 +377,13 @@ TEST_CASE("A folder that is nearly a dataset is told what it lacks") {
     scratch.write("transforms_train.json", "{}");
     CHECK(said(
         "looks like nerfstudio or instant-ngp: transforms.json with a file_path in its frames is missing"));
+  }
+  SECTION("folders and videos below it") {
+    scratch.write("walks/one/1.png");
+    CHECK(said("no dataset here; below it, and to be named themselves, are "));
+    CHECK(said("walks/one; looked for"));
+    scratch.write("two.mp4");
+    CHECK(said("two.mp4; looked for"));
   }
   SECTION("a table of an inertial sensor") {
     scratch.write("data.csv", "1,2\n");

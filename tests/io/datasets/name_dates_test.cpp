@@ -112,13 +112,64 @@ TEST_CASE("Dates that are no stamps are told in one note") {
 }
 
 TEST_CASE("Numbers of other names are no dates, and nothing is said of them") {
-  const Names names = GENERATE(
-      Names{"frame_00000001", "frame_00000002"}, Names{"20100101", "20109999"},
-      Names{"1341836537.655662", "1341836537.687415"}, Names{"1341836537655662000", "1341836537687415000"},
-      Names{"12-30-15", "12-30-16"}, Names{"0001_000001", "0001_000002"}, Names{"a", "b"}, Names{});
+  const Names names = GENERATE(Names{"frame_00000001", "frame_00000002"}, Names{"20100101", "20109999"},
+                               Names{"1341836537.655662", "1341836537.687415"},
+                               Names{"1341836537655662000", "1341836537687415000"},
+                               Names{"0001_000001", "0001_000002"}, Names{"a", "b"}, Names{});
   const io::NameDates dates = dates_of(names);
   CHECK(dates.seconds.empty());
   CHECK(dates.note.empty());
+}
+
+TEST_CASE("A time of day without a date is seconds since midnight, however it is written") {
+  const Names names =
+      GENERATE(Names{"12-30-15", "12-30-17"}, Names{"12:30:15.0", "12:30:17.0"},
+               Names{"cam0_12_30_15", "cam0_12_30_17"}, Names{"12h30m15s", "12h30m17s"},
+               Names{"12-30-15_000", "12-30-17_000"}, Names{"Screen 9.30.15 AM", "Screen 9.30.17 AM"},
+               Names{"240501_12-30-15", "240501_12-30-17"}, Names{"01-05-24_12-30-15", "01-05-24_12-30-17"},
+               Names{"001_12-30-15", "002_12-30-17"});
+  CAPTURE(names.front());
+  const double start = names.front().find('9') == std::string::npos ? 45015 : 34215;
+  const io::NameDates times = dates_of(names);
+  CHECK(times.seconds == Stamps{start, start + 2});
+  CHECK(times.note ==
+        "names are times of day, such as " + names.front() + ": stamps are seconds since midnight");
+}
+
+TEST_CASE("Digits alone are a time of day where a minute ends as on a clock") {
+  CHECK(dates_of({"123058", "123059", "123100", "123101"}).seconds == Stamps{45058, 45059, 45060, 45061});
+  CHECK(dates_of({"123059.750", "123100.250"}).seconds.empty());  // two numbers have but one step
+  CHECK(dates_of({"123059.750", "123100.250", "123100.500"}).seconds == Stamps{45059.75, 45060.25, 45060.5});
+  CHECK(dates_of({"22-05-01_12-30-15_250", "22-05-01_12-30-15_500"}).seconds == Stamps{45015.25, 45015.5});
+  CHECK(dates_of({"123059750", "123100250", "123100500"}).seconds == Stamps{45059.75, 45060.25, 45060.5});
+  CHECK(dates_of({"230501_123059", "230501_123100", "230501_123102"}).seconds == Stamps{45059, 45060, 45062});
+  const Names counters =
+      GENERATE(Names{"000058", "000059", "000100"}, Names{"120058", "120060", "120100"},
+               Names{"120000", "120100", "120200", "120300"}, Names{"123001.5", "123002.5", "123004.5"});
+  CAPTURE(counters.front());
+  const io::NameDates none = dates_of(counters);
+  CHECK(none.seconds.empty());
+  CHECK(none.note.empty());
+}
+
+TEST_CASE("Times of day may go over midnight") {
+  const io::NameDates sorted = dates_of({"00-00-01", "23-59-58", "23-59-59"});
+  CHECK(sorted.seconds == Stamps{86401, 86398, 86399});
+  CHECK(contains(sorted.note, "; those of the morning are of the next day"));
+  CHECK(dates_of({"1_23-59-59", "2_00-00-01"}).seconds == Stamps{86399, 86401});
+  CHECK(contains(dates_of({"1_12-30-15", "2_12-30-14"}).note,
+                 "names hold times, but they go back in time from 1_12-30-15 to 2_12-30-14"));
+}
+
+TEST_CASE("The one date in the names of a video's frames is the video's") {
+  const io::NameDates dates = dates_of({"VID_20240501_123015_0001", "VID_20240501_123015_0002"});
+  CHECK(dates.seconds.empty());
+  CHECK(contains(dates.note, "names hold dates, but too many are of one second"));
+  CHECK(dates_of({"12-30-15_0001", "12-30-15_0002"}).note.empty());
+  Names two;
+  for (int i = 0; i < 600; ++i)
+    two.push_back((i < 300 ? "20240501_123015_" : "20240501_124500_") + std::to_string(1000 + i));
+  CHECK(dates_of(two).seconds.empty());
 }
 
 TEST_CASE("A folder of images with dates for names has these stamps, and says how it reads them") {

@@ -102,8 +102,17 @@ TEST_CASE("transforms.json: broken and empty ones are refused in one line") {
     CHECK(contains(error(), "which is not there"));
   }
   SECTION("matrices of another size") {
+    scratch.write("a.png");
     transforms_test::write(scratch, {"{\"file_path\": \"a.png\", \"transform_matrix\": [[1, 2], [3, 4]]}"});
-    CHECK(contains(error(), "transform_matrix has 4 numbers; expected 4x4"));
+    const std::string why = "transform_matrix has 4 numbers; expected 4x4";
+    const io::Dataset dataset = io::open_dataset(scratch.path());  // tracking needs no truth
+    CHECK(dataset.frames.size() == 1);
+    CHECK(dataset.ground_truth.empty());
+    CHECK(contains(dataset.truth_problem, why));
+    CHECK(contains(dataset.warnings.at(0), "; ground truth left out"));
+    io::Warnings warnings;
+    CHECK(contains(error_of([&] { (void)io::read_pose_file(scratch.path() / "transforms.json", warnings); }),
+                   why));
   }
   SECTION("frames without poses") {
     scratch.write("a.png");

@@ -167,6 +167,39 @@ TEST_CASE("Trajectories of other programs are told by their rows") {
                  "k_times.txt: has 2 times for the 3 poses"));
 }
 
+TEST_CASE("A head that names the columns tells their order") {
+  const testing::ScratchFolder scratch;
+  const std::string table = GENERATE(
+      as<std::string>(), "qx,qy,qz,qw,tx,ty,tz,timestamp\n0,0.6,0,0.8,1,2,3,5\n0,0.6,0,0.8,1,2,3,6\n",
+      "# time qx qy qz qw x y z\n5 0 0.6 0 0.8 1 2 3\n6 0 0.6 0 0.8 1 2 3\n",
+      ",timestamp,tx,ty,tz,qx,qy,qz,qw\n0,5,1,2,3,0,0.6,0,0.8\n1,6,1,2,3,0,0.6,0,0.8\n",
+      "\"stamp\";\"p_x\";\"p_y\";\"p_z\";\"q_w\";\"q_x\";\"q_y\";\"q_z\"\n5;1;2;3;0.8;0;0.6;0\n6;1;2;3;0.8;0;"
+      "0.6;0\n",
+      "#timestamp [s], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], "
+      "v_RS_R_x [m s^-1]\n5,1,2,3,0.8,0,0.6,0,9\n6,1,2,3,0.8,0,0.6,0,9\n",
+      "%time,field.seq,field.pose.position.x,field.pose.position.y,field.pose.position.z,"
+      "field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z,field.pose.orientation.w\n"
+      "5,1,1,2,3,0,0.6,0,0.8\n6,2,1,2,3,0,0.6,0,0.8\n");
+  CAPTURE(table);
+  const io::Trajectory poses = read(scratch.write("t.csv", table));
+  REQUIRE(poses.size() == 2);
+  CHECK(poses[1].stamp == 6);
+  CHECK(poses[1].world_from_cam.translation == Vec3<double>(1, 2, 3));
+  const auto expected = SO3<double>::from_quaternion(0.8, 0, 0.6, 0);
+  CHECK(angle_between(poses[1].world_from_cam.rotation, expected) < 1e-12);
+}
+
+TEST_CASE("A row of a named table that has lost its end is bad, not another table's") {
+  const testing::ScratchFolder scratch;
+  const std::string head = "time,tx,ty,tz,qw,qx,qy,qz,speed\n", good = ",1,2,3,0.8,0,0.6,0,9\n";
+  io::Warnings warnings;
+  const auto poses = io::read_trajectory(
+      scratch.write("t.csv", head + "1" + good + "2" + good + "3,1,2,3,0.8,0,0.6,0\n"), warnings);
+  CHECK(poses.size() == 2);
+  REQUIRE(warnings.size() == 1);
+  CHECK(contains(warnings[0], "line 4: expected 9 numbers, found 8"));
+}
+
 TEST_CASE("Open3D's trajectory.log is read by the numbers of its frames") {
   const testing::ScratchFolder scratch;
   const std::string matrix = "1 0 0 2\n0 0 -1 3\n0 1 0 4\n0 0 0 1\n";

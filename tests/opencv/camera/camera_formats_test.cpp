@@ -165,6 +165,63 @@ TEST_CASE("COLMAP and nerfstudio count the first pixel's centre as a half") {
                 "camera_angle_x without w and h; give --fov 57.2958");
 }
 
+TEST_CASE("A COLMAP camera with more or fewer numbers than its model has is refused") {
+  check_refused("1 PINHOLE 640 480 500 500 320 240 0.125\n",
+                "PINHOLE has 7 numbers; expected 6: the width, the height, and 4 of the model");
+  check_refused("1 OPENCV 640 480 500 500 320 240 0.125\n", "OPENCV has 7 numbers; expected 10");
+  check_refused("1 THIN_PRISM_FISHEYE 640 480 500 500 320 240 0 0 0 0 0 0 0 0\n",
+                "the lens model 'THIN_PRISM_FISHEYE' is not known here");
+}
+
+TEST_CASE("Distortion is read under all its names, and one that is not known is refused") {
+  const std::string k = "\"K\": [[500.5, 0, 320.5], [0, 501.25, 240.75], [0, 0, 1]], ";
+  const RadTan<double> lens{0.125, -0.25, 0.001, 0.002, 0.0625};
+  for (const char* name : {"dist_coeff", "dist_coefs", "distortion_coef", "D"}) {
+    CAPTURE(name);
+    const std::string list = std::string("\"") + name + "\": [[0.125, -0.25, 0.001, 0.002, 0.0625]]}";
+    check_camera_values(read_written("{" + k + list), kWritten, lens, 0, 0);
+    check_camera_values(
+        read_written("{\"fx\": 500.5, \"fy\": 501.25, \"cx\": 320.5, \"cy\": 240.75, " + list), kWritten,
+        lens, 0, 0);
+  }
+  check_camera_values(
+      read_written("{" + k + "\"k1\": 0.125, \"k2\": -0.25, \"p1\": 0.001, \"p2\": 0.002, \"k3\": 0.0625}"),
+      kWritten, lens, 0, 0);
+  check_refused("{" + k + "\"distortionVector\": [0.125, -0.25, 0.001, 0.002]}",
+                "distortionVector is not known here; expected distortion_coefficients");
+}
+
+TEST_CASE("A matrix as programs print it, and under the names of Open3D and ARKit") {
+  const std::string text = GENERATE(
+      as<std::string>(), "500.5, 0, 320.5\n0, 501.25, 240.75\n0, 0, 1\n",
+      "[[500.5 0. 320.5]\n [0. 501.25 240.75]\n [0. 0. 1.]]\n", "500.5;0;320.5\n0;501.25;240.75\n0;0;1\n",
+      "[[500.5, 0, 320.5], [0, 501.25, 240.75], [0, 0, 1]]", "500.5 0 320.5 0 501.25 240.75 0 0 1\n",
+      "{\"intrinsics\": [500.5, 0, 0, 0, 501.25, 0, 320.5, 240.75, 1]}",
+      "{\"intrinsic\": {\"intrinsic_matrix\": [500.5, 0, 0, 0, 501.25, 0, 320.5, 240.75, 1]}}",
+      "Camera:\n  fx: 500.5\n  fy: 501.25\n  cx: 320.5\n  cy: 240.75\n", "500.5, 501.25, 320.5, 240.75\n");
+  CAPTURE(text);
+  check_camera_values(read_written(text), kWritten, {}, 0, 0);
+}
+
+TEST_CASE("Frames with focal lengths of their own are told, with how far they go") {
+  const auto notes = [](const std::string& second) {
+    const std::string rest = ", \"fl_y\": 500, \"cx\": 320, \"cy\": 240, \"w\": 640, \"h\": 480}";
+    const CameraFile file =
+        read_written("{\"frames\": [{\"fl_x\": 500" + rest + ", {\"fl_x\": " + second + rest + "]}");
+    CHECK(file.camera.pinhole.fx == 500);
+    return file.notes.at(0);
+  };
+  CHECK(notes("501").ends_with("the camera is that of the first of its frames"));
+  CHECK(notes("620").ends_with("of its frames; their focal lengths go from 500 to 620 pixels"));
+}
+
+TEST_CASE("An angle of view in degrees is told") {
+  check_refused(
+      "{\"camera_angle_x\": 67.4, \"w\": 640, \"h\": 480, \"frames\": []}",
+      "camera_angle_x is 67.4; expected the horizontal field of view in radians; are these degrees, "
+      "give --fov 67.4");
+}
+
 TEST_CASE("DSO's camera.txt in pixels and in shares of the image") {
   check_camera_values(
       read_written("RadTan 500.5 501.25 320.5 240.75 0.125 -0.25 0.001 0.002\n640 480\ncrop\n640 480\n"),

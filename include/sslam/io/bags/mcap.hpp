@@ -97,8 +97,12 @@ class Records {
   std::map<std::uint16_t, std::string> schemas_;
 };
 
-// What stands in front of a chunk's records. Throws Error where it ends too early; kNone with a wrong size
-// where nobody knows how it is packed.
+// Thrown where nobody knows how a chunk is packed.
+struct UnknownPacking {
+  std::string name;
+};
+
+// What stands in front of a chunk's records. Throws Error where it ends too early.
 [[nodiscard]] inline ChunkPlace chunk_at(BagFile& file, std::uint64_t at, std::uint64_t size,
                                          std::uint16_t number_of_file) {
   constexpr std::uint64_t kHead = 8 + 8 + 8 + 4 + 4, kLongestName = 16;
@@ -115,7 +119,7 @@ class Records {
   chunk.packed = number<std::uint64_t>(reader);
   chunk.begin = at + (head.size() - reader.left().size());
   chunk.packing = name == "lz4" ? Packing::kLz4 : name == "zstd" ? Packing::kZstd : Packing::kNone;
-  if (!name.empty() && chunk.packing == Packing::kNone) throw Error("is packed in an unknown way");
+  if (!name.empty() && chunk.packing == Packing::kNone) throw UnknownPacking{std::string(name)};
   return chunk;
 }
 
@@ -148,6 +152,8 @@ void read_mcap(BagFile& file, std::uint16_t number, const ChunkCodec& codec, Sin
         if (!read_chunk(file, alone, codec, scratch, bytes)) throw Error("damaged");
         records.read(op, bytes, op == kMcapMessage ? sink.chunk(alone) : 0, 0);
       }
+    } catch (const detail::UnknownPacking& packing) {
+      sink.unknown_packing(packing.name);
     } catch (const Error&) {
       sink.damaged_chunk(at);
     }

@@ -37,7 +37,7 @@ struct BagRecord {
 template <class S>
 concept RecordSink = requires(S sink, std::uint32_t number, const BagChannel& channel,
                               const ChunkPlace& chunk, const BagRecord& record, std::uint64_t at,
-                              const std::string& what) {
+                              const std::string& what, std::string_view packing) {
   // Answers with the number by which messages name it.
   { sink.chunk(chunk) } -> std::same_as<std::uint32_t>;
   sink.channel(number, channel);
@@ -45,6 +45,8 @@ concept RecordSink = requires(S sink, std::uint32_t number, const BagChannel& ch
   // A chunk, or what stands in it, is damaged; the file goes on behind it. `at`: a byte, or a message's id in
   // a database.
   sink.damaged_chunk(at);
+  // A chunk that is packed in a way that nobody here knows, by the name that it has in the file.
+  sink.unknown_packing(packing);
   // The file cannot be read from here on.
   sink.broken(at, what);
 };

@@ -35,7 +35,8 @@ struct BagMessage {
 enum class BagKind : std::uint8_t { kOther, kImage, kCompressedImage, kCameraInfo, kChildPose };
 
 struct BagTopic {
-  std::string name, type;
+  std::string name;
+  std::string type;  // and how it is written, where that is not ROS's way
   BagKind kind = BagKind::kOther;
   Wire wire = Wire::kRos1;
   std::size_t unreadable = 0;  // messages whose fields end too early
@@ -82,6 +83,7 @@ class Collector {
     database_ = database;
     topic_of_.clear();
     damaged_ = 0;
+    packing_.clear();
   }
 
   void end_file() {
@@ -91,6 +93,9 @@ class Collector {
                                     std::to_string(first_damaged_) +
                                     (damaged_ > 1 ? " and " + std::to_string(damaged_ - 1) + " more" : "") +
                                     (database_ ? ": it is left out" : ": what is in it is left out"));
+    if (!packing_.empty())
+      recording_.warnings.push_back(file_.string() + ": chunks that are packed as " + packing_ +
+                                    " are left out; read are lz4, zstd, bz2 and none");
   }
 
   std::uint32_t chunk(const ChunkPlace& chunk) {
@@ -107,11 +112,12 @@ class Collector {
         topics_.try_emplace({channel.topic, channel.type, channel.encoding}, recording_.topics.size());
     topic_of_[number] = known->second;
     if (!added) return;
+    const bool ros = channel.encoding == "cdr" || channel.encoding == "ros1";
     BagTopic topic;
     topic.name = shown_word(channel.topic);
     topic.type = shown_word(channel.type);
+    if (!ros && !channel.encoding.empty()) topic.type += " in " + shown_word(channel.encoding);
     topic.wire = channel.encoding == "cdr" ? Wire::kCdr : Wire::kRos1;
-    const bool ros = channel.encoding == "cdr" || channel.encoding == "ros1";
     topic.kind = ros ? kind_of(channel.type) : BagKind::kOther;
     recording_.topics.push_back(std::move(topic));
   }
@@ -130,6 +136,10 @@ class Collector {
 
   void damaged_chunk(std::uint64_t at) {
     if (damaged_++ == 0) first_damaged_ = at;
+  }
+
+  void unknown_packing(std::string_view name) {
+    if (packing_.empty()) packing_ = name.empty() ? "nothing known" : shown_word(name);
   }
 
   void broken(std::uint64_t at, const std::string& what) {
@@ -191,6 +201,7 @@ class Collector {
   std::map<std::uint32_t, std::size_t> topic_of_;             // by the number of a channel of this file
   std::size_t damaged_ = 0;
   std::uint64_t first_damaged_ = 0;
+  std::string packing_;  // of the first chunk that nobody can unpack; empty: there is none
 };
 
 static_assert(RecordSink<Collector>);

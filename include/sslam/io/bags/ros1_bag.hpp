@@ -147,9 +147,10 @@ void read_ros1_bag(BagFile& file, std::uint16_t number, const ChunkCodec& codec,
       const bool known = detail::packing_of(record.header, chunk.packing);
       if (chunk.packing != Packing::kNone)
         chunk.size = detail::number_of<std::uint32_t>(detail::field_of(record.header, "size"));
+      if (!known) sink.unknown_packing(detail::field_of(record.header, "compression"));
       const bool sound = known && read_chunk(file, chunk, codec, scratch, bytes) &&
                          detail::read_records(bytes, sink.chunk(chunk), sink);
-      if (!sound && whole) sink.damaged_chunk(at);
+      if (known && !sound && whole) sink.damaged_chunk(at);
     }
     if (!whole) return sink.broken(at, "a record without its end");
     at = record.begin + record.size;

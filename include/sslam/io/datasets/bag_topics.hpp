@@ -57,7 +57,11 @@ namespace bag_detail {
     if (topic.name == name) return topic;
     add_to_list(others, described(topic));
   }
-  throw Error(root + ": " + option + " " + name + " names no topic with images; there are " +
+  std::string own;
+  for (const BagTopic& topic : recording.topics)
+    if (topic.name == name) own = topic.has_images() ? ", it has no messages" : ", it has " + topic.type;
+  throw Error(root + ": " + option + " " + name +
+              " names no topic with images (sensor_msgs/Image, CompressedImage)" + own + "; there are " +
               (others.empty() ? "none" : others));
 }
 

@@ -26,12 +26,12 @@ namespace sslam::io {
 // Empty: none.
 [[nodiscard]] inline std::filesystem::path find_colour_folder(const std::filesystem::path& root) {
   for (const char* name : {"color", "colour", "rgb", "image", "images"})
-    if (is_image_folder(root / name)) return root / name;
+    if (const auto folder = find_folder(root, name); is_image_folder(folder)) return folder;
   return {};
 }
 
 [[nodiscard]] inline bool is_colour_depth(const std::filesystem::path& root) {
-  return !find_colour_folder(root).empty() && is_image_folder(root / "depth");
+  return !find_colour_folder(root).empty() && is_image_folder(find_folder(root, "depth"));
 }
 
 [[nodiscard]] inline bool is_scannet(const std::filesystem::path& root) {
@@ -114,7 +114,7 @@ inline void attach_pose_rows(Dataset& dataset, const std::filesystem::path& file
   dataset.layout = Layout::kColourDepth;
   dataset.root = root;
   dataset.depth_factor = kMillimetres;
-  attach_depth_folder(dataset, root / "depth");
+  attach_depth_folder(dataset, find_folder(root, "depth"));
   std::error_code ignored;
   for (const char* name : {"camera_intrinsic.json", "intrinsic.json", "camera_intrinsics.json"})
     if (std::filesystem::is_regular_file(root / name, ignored)) {

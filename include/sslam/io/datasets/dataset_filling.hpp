@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -86,6 +88,20 @@ inline void order_frames(Dataset& dataset, const std::filesystem::path& source) 
                              ": the first image of each is kept");
 }
 
+// Lists that were filled up to a steady rate name images again: a camera that seems to stand.
+inline void tell_repeated_images(Dataset& dataset, const std::filesystem::path& source) {
+  std::unordered_set<std::string_view> seen;
+  std::size_t again = 0;
+  std::string_view first;
+  for (const FrameEntry& frame : dataset.frames)
+    if (!seen.insert(frame.image).second && again++ == 0) first = frame.image;
+  constexpr std::size_t kOf = 10;  // one by mistake does no harm
+  if (kOf * again > dataset.frames.size())
+    dataset.warnings.push_back(source.string() + ": " + std::to_string(again) +
+                               " frames have an image that another one has, too, the first " +
+                               std::string(first));
+}
+
 // Keeps the frames whose image is there, by increasing stamps; a few others are skipped with a warning
 // each. `source` is the list or the folder that named them.
 inline void drop_bad_frames(Dataset& dataset, const std::filesystem::path& source) {
@@ -103,6 +119,7 @@ inline void drop_bad_frames(Dataset& dataset, const std::filesystem::path& sourc
   bad.settle(total, dataset.warnings);
   dataset.frames = std::move(present);
   order_frames(dataset, source);
+  tell_repeated_images(dataset, source);
   for (std::size_t i = 0; i < dataset.frames.size(); ++i)
     dataset.frames[i].index = static_cast<std::int64_t>(i);
 }

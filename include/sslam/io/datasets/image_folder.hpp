@@ -9,6 +9,7 @@
 
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/datasets/dataset_filling.hpp"
+#include "sslam/io/datasets/image_kinds.hpp"
 #include "sslam/io/datasets/name_stamps.hpp"
 #include "sslam/io/files/files.hpp"
 
@@ -44,6 +45,9 @@ namespace sslam::io {
                                                double frame_rate = kDefaultFrameRate) {
   const std::vector<std::filesystem::path> images = list_files(root, is_image_name);
   if (images.empty()) throw Error(root.string() + ": holds no image (png, jpg, bmp, ppm, pgm, tif, webp)");
+  if (const std::string kinds = image_kinds(images); !kinds.empty())
+    throw Error(root.string() + ": holds images of several kinds side by side; say which are meant, as in '" +
+                (root / "NAMES").string() + "' with NAMES one of " + kinds);
   return frames_from_images(root, images, frame_rate);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stamps from the dates in the names of images, where all names hold one, in one form.
+// Stamps from the dates or the times of day in the names of images, where all names hold one, in one form.
 #pragma once
 
 #include <algorithm>
@@ -14,54 +14,19 @@
 #include <vector>
 
 #include "sslam/io/datasets/name_date.hpp"
+#include "sslam/io/datasets/name_parts.hpp"
+#include "sslam/io/datasets/name_times.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::io {
 
 struct NameDates {
-  std::vector<double> seconds;  // since 1970, one for each name; empty: the dates are no stamps
+  std::vector<double> seconds;  // since 1970 or midnight, one for each name; empty: they are no stamps
   std::string note;             // how they are read, or why they are not; empty: names hold no dates
 };
 
 namespace name_dates_detail {
-
-// Digits behind a point or a comma.
-inline void take_decimals(NameDate& name) {
-  const std::string& after = name.after;
-  if (!name.fraction.empty() || after.size() < 2 || (after[0] != '.' && after[0] != ',')) return;
-  const std::size_t end = std::min(after.find_first_not_of("0123456789", 1), after.size());
-  name.fraction = after.substr(1, end - 1);
-  if (!name.fraction.empty()) name.after.erase(0, end);
-}
-
-// 3, 6 or 9 digits behind another mark than a point are part of a second where all names have as many. Where
-// each is one more than the one before, they count the images.
-inline void take_marked_decimals(std::vector<NameDate>& names) {
-  const std::string& first = names.front().after;
-  const auto digits = [](const std::string& after) {
-    return after.empty() ? 0 : std::min(after.find_first_not_of("0123456789", 1), after.size()) - 1;
-  };
-  const std::size_t count = digits(first);
-  if ((count != 3 && count != 6 && count != 9) ||
-      std::string_view("_-:").find(first[0]) == std::string_view::npos)
-    return;
-  bool counts = true;
-  std::int64_t last = -1;
-  for (const NameDate& name : names) {
-    if (!name.fraction.empty() || name.after.empty() || name.after[0] != first[0] ||
-        digits(name.after) != count)
-      return;
-    const auto part = parse_number<std::int64_t>(name.after.substr(1, count)).value_or(0);
-    counts = counts && (part == last + 1 || part <= 1 || last < 0);
-    last = part;
-  }
-  if (counts) return;
-  for (NameDate& name : names) {
-    name.fraction = name.after.substr(1, count);
-    name.after.erase(0, count + 1);
-  }
-}
 
 struct Zone {
   std::int64_t seconds = 0;    // east of Greenwich
@@ -107,26 +72,40 @@ enum class Zones { kNone, kAll, kSome };
   return Zones::kAll;
 }
 
-// Images of one second are spread evenly over it. The first second of a recording and its last are not
-// whole: there the step is that of the neighbour. `order`: the names by their time.
-[[nodiscard]] inline std::vector<double> spread_seconds(const std::vector<NameDate>& names,
-                                                        const std::vector<std::size_t>& order) {
-  struct Group {
-    std::int64_t second = 0;
-    std::size_t first = 0, count = 0;
-  };
-  std::vector<Group> groups;
+// Names of one second.
+struct OneSecond {
+  std::int64_t second = 0;
+  std::size_t first = 0, count = 0;  // places in the order by time
+};
+
+[[nodiscard]] inline std::vector<OneSecond> seconds_of(const std::vector<NameDate>& names,
+                                                       const std::vector<std::size_t>& order) {
+  std::vector<OneSecond> groups;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::int64_t second = names[order[i]].second;
     if (groups.empty() || groups.back().second != second) groups.push_back({second, i, 0});
     ++groups.back().count;
   }
+  return groups;
+}
+
+// The time in the names of a video's frames may be that of the video.
+[[nodiscard]] inline bool are_of_recording(const std::vector<OneSecond>& groups) {
+  constexpr std::size_t kMostASecond = 250;  // that a camera takes
+  return groups.size() == 1 || std::any_of(groups.begin(), groups.end(),
+                                           [](const OneSecond& group) { return group.count > kMostASecond; });
+}
+
+// Images of one second are spread evenly over it. The first second of a recording and its last are not
+// whole: there the step is that of the neighbour. `order`: the names by their time.
+[[nodiscard]] inline std::vector<double> spread_seconds(const std::vector<OneSecond>& groups,
+                                                        const std::vector<std::size_t>& order) {
   const auto count_at = [&](std::size_t group, std::int64_t second) {
     return groups[group].second == second ? groups[group].count : std::size_t{0};
   };
-  std::vector<double> seconds(names.size());
+  std::vector<double> seconds(order.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const Group& group = groups[g];
+    const OneSecond& group = groups[g];
     std::size_t places = group.count;
     if (g == 0 && groups.size() > 1) places = std::max(places, count_at(1, group.second + 1));
     const std::size_t skipped = g == 0 ? places - group.count : 0;
@@ -138,7 +117,7 @@ enum class Zones { kNone, kAll, kSome };
   return seconds;
 }
 
-// Why names that hold dates are no stamps; empty where they may be.
+// Why names that hold dates or times are no stamps; empty where they may be.
 [[nodiscard]] inline std::string objection(const std::vector<NameDate>& names,
                                            const std::vector<std::string>& stems, Zones zones) {
   if (zones == Zones::kSome) return "some have a time zone and others have none";
@@ -172,16 +151,20 @@ enum class Zones { kNone, kAll, kSome };
     any = any || names.back().kind >= DateKind::kImpossible;
     all_dates = all_dates && names.back().kind >= DateKind::kDateAlone;
   }
-  const auto refuse = [](const std::string& why) { return NameDates{{}, "names hold dates, but " + why}; };
-  if (!any && !all_dates) return {};  // eight digits in some names need not be a date
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  const bool dated = any || all_dates;  // eight digits in some names need not be a date
+  if (!dated) names = times_in_names(stems);
+  if (names.empty()) return {};
+  const auto refuse = [dated](const std::string& why) {
+    return NameDates{{}, std::string("names hold ") + (dated ? "dates" : "times") + ", but " + why};
+  };
+  for (std::size_t i = 0; dated && i < names.size(); ++i) {
     if (names[i].kind == DateKind::kImpossible) return refuse("there is no such time as in " + stems[i]);
     if (names[i].kind == DateKind::kDateAlone) return refuse("no time to the second, such as " + stems[i]);
     if (names[i].kind == DateKind::kNone) return refuse("not all of them, such as " + stems[i]);
   }
-  for (NameDate& name : names) take_decimals(name);
-  take_marked_decimals(names);
-  const Zones zones = take_zones(names);
+  if (dated) take_parts(names);
+  const Zones zones = dated ? take_zones(names) : Zones::kNone;
+  const bool midnight = !dated && pass_midnight(names);
   if (const std::string why = objection(names, stems, zones); !why.empty()) return refuse(why);
 
   const bool fine =
@@ -206,9 +189,17 @@ enum class Zones { kNone, kAll, kSome };
       return refuse("some are of the same time, such as " + images[a].filename().string() + " and " +
                     images[b].filename().string());
   }
-  if (several) dates.seconds = spread_seconds(names, order);
-  dates.note = "names are dates and times, such as " + stems.front() + ": stamps are seconds since 1970";
-  if (zones == Zones::kNone) dates.note += ", as if in UTC";
+  if (several) {
+    const std::vector<OneSecond> groups = seconds_of(names, order);
+    if (are_of_recording(groups))
+      return refuse("too many are of one second, such as " + stems[order[groups.back().first]]);
+    dates.seconds = spread_seconds(groups, order);
+  }
+  dates.note =
+      dated ? "names are dates and times, such as " + stems.front() + ": stamps are seconds since 1970"
+            : "names are times of day, such as " + stems.front() + ": stamps are seconds since midnight";
+  if (dated && zones == Zones::kNone) dates.note += ", as if in UTC";
+  if (midnight) dates.note += "; those of the morning are of the next day";
   if (several) dates.note += "; images of one second are spread evenly over it";
   return dates;
 }

@@ -2,10 +2,13 @@
 // One door to all readers: tells the layout from what lies in the folder.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/colour_depth.hpp"
@@ -82,6 +85,26 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   return text;
 }
 
+// What can be opened below a folder, to name in its place; empty: nothing. Looks two folders deep.
+[[nodiscard]] inline std::string datasets_below(const std::filesystem::path& root, int deep = 2) {
+  constexpr std::size_t kMost = 4;  // to name
+  std::vector<std::filesystem::path> found =
+      list_files(root, [](const auto& name) { return is_video_name(name) || is_bag_name(name); });
+  std::vector<std::filesystem::path> folders = list_folders(root);
+  constexpr std::size_t kMostFolders = 20;  // to look into
+  folders.resize(std::min(folders.size(), kMostFolders));
+  for (const std::filesystem::path& folder : folders)
+    if (std::any_of(kFolderLayouts.begin(), kFolderLayouts.end(),
+                    [&folder](const FolderLayout& known) { return known.matches(folder); }))
+      found.push_back(folder);
+  std::string list;
+  for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) add_to_list(list, found[i].string());
+  if (found.size() > kMost) add_to_list(list, "...");
+  for (std::size_t i = 0; deep > 1 && list.empty() && i < folders.size(); ++i)
+    list = datasets_below(folders[i], deep - 1);
+  return list;
+}
+
 // path: a folder in one of the layouts, a glob of images, a video, or a bag. Throws Error for anything
 // else.
 [[nodiscard]] inline Dataset open_dataset(const std::filesystem::path& path,
@@ -105,8 +128,9 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
     if (known.matches(path)) return known.read(path, options);
   }
   const bool empty = std::filesystem::is_empty(path, ignored);
-  const std::string nearest = nearest_layout(path);
+  const std::string nearest = nearest_layout(path), below = datasets_below(path);
   throw Error(path.string() + (empty ? ": the folder is empty" : ": no dataset here") +
+              (below.empty() ? "" : "; below it, and to be named themselves, are " + below) +
               (nearest.empty() ? "" : "; " + nearest) + "; looked for " + describe_folder_layouts());
 }
 

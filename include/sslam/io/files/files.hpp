@@ -111,6 +111,19 @@ namespace sslam::io {
   return name.string().starts_with("._");
 }
 
+// In the natural order of their names.
+inline void sort_by_name(std::vector<std::filesystem::path>& paths) {
+  std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+}
+
+// A link whose file is not there. Listed as a file, so that who reads it says so.
+[[nodiscard]] inline bool is_dead_link(const std::filesystem::directory_entry& entry) {
+  std::error_code ignored;
+  return entry.is_symlink(ignored) && !entry.exists(ignored);
+}
+
 // Files in a folder (not below it) that `wanted` accepts, in natural order. Empty when there is no such
 // folder.
 template <class Predicate>
@@ -122,12 +135,35 @@ template <class Predicate>
        !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
     std::error_code ignored;
     const std::filesystem::path name = it->path().filename();
-    if (it->is_regular_file(ignored) && !is_apple_double(name) && wanted(name)) files.push_back(it->path());
+    if ((it->is_regular_file(ignored) || is_dead_link(*it)) && !is_apple_double(name) && wanted(name))
+      files.push_back(it->path());
   }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
+  sort_by_name(files);
   return files;
+}
+
+// Folders in a folder, without hidden ones. Empty when there is no such folder.
+[[nodiscard]] inline std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> folders;
+  std::error_code error;
+  for (auto it = std::filesystem::directory_iterator(folder, error);
+       !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
+    std::error_code ignored;
+    if (it->is_directory(ignored) && !it->path().filename().string().starts_with('.'))
+      folders.push_back(it->path());
+  }
+  sort_by_name(folders);
+  return folders;
+}
+
+// The folder of this name in another, in small letters or others; empty: none.
+[[nodiscard]] inline std::filesystem::path find_folder(const std::filesystem::path& parent,
+                                                       std::string_view name) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(parent / name, ignored)) return parent / name;
+  for (const std::filesystem::path& folder : list_folders(parent))
+    if (lower_case(folder.filename().string()) == name) return folder;
+  return {};
 }
 
 }  // namespace sslam::io

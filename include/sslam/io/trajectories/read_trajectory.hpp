@@ -20,6 +20,7 @@
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/stamp_unit.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/io/trajectories/pose_columns.hpp"
 #include "sslam/io/trajectories/pose_row.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/io/trajectories/transforms.hpp"
@@ -146,6 +147,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
 [[nodiscard]] inline PoseFile read_transforms_poses(const std::filesystem::path& path, Warnings& warnings,
                                                     std::filesystem::path times) {
   const Transforms transforms = read_transforms(path, warnings);
+  transforms.bad_poses.settle(transforms.frames.size(), warnings);
   PoseFile result;
   result.no_pose = transforms.no_pose;
   std::vector<double> clock;
@@ -187,10 +189,12 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   if (rows.empty())
     throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
   const std::string_view head(text.data(), static_cast<std::size_t>(rows.front().text.data() - text.data()));
+  const std::size_t named = order_columns(rows, head);
   const std::vector<double> numbers = trajectory_detail::take_log_heads(rows);
   trajectory_detail::join_matrices(rows);
-  const std::size_t width = trajectory_detail::usual_width(rows);
-  const RowLayout layout = trajectory_detail::layout_of(rows, width, head, path, warnings);
+  const std::size_t width = named > 0 ? named : trajectory_detail::usual_width(rows);
+  const RowLayout layout =
+      named > 0 ? RowLayout::kTum : trajectory_detail::layout_of(rows, width, head, path, warnings);
   PoseFile result;
   std::vector<double> clock;
   if (!has_stamp(layout)) {

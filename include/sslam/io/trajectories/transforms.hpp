@@ -31,6 +31,7 @@ struct Transforms {
   std::vector<TransformsFrame> frames;  // in natural order of their files, by stamp where all have one
   bool stamped = false;
   std::size_t no_pose = 0;
+  BadEntries bad_poses;  // of frames without a pose here; to be settled by who needs poses
 };
 
 namespace transforms_detail {
@@ -67,7 +68,7 @@ inline void add_numbers(const TextNode& node, std::vector<double>& numbers) {
   const TextNode* frames = root.find("frames");
   if (frames == nullptr || frames->kind != TextNode::Kind::kList || frames->items.empty())
     throw Error(path.string() + ": lists no frame; expected \"frames\" with file_path and transform_matrix");
-  Transforms result;
+  Transforms result{{}, false, 0, BadEntries(path)};
   BadEntries bad(path);
   for (const TextNode& node : frames->items) {
     TransformsFrame frame;
@@ -90,8 +91,7 @@ inline void add_numbers(const TextNode& node, std::vector<double>& numbers) {
       } else if (const auto pose = whole ? pose_of_matrix(v, why) : std::nullopt) {
         frame.world_from_cam = transforms_detail::from_opengl(*pose);
       } else {
-        bad.add(node.line, why);
-        continue;
+        result.bad_poses.add(node.line, why);
       }
     }
     result.frames.push_back(std::move(frame));

@@ -3,10 +3,14 @@
 // matrix, and "fx fy cx cy k1 k2 p1 p2 k3".
 #pragma once
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sslam/opencv/camera/matrix_cameras.hpp"
@@ -14,17 +18,30 @@
 namespace sslam {
 namespace detail {
 
-// Words by blanks, row after row; comments (#) and empty rows are left out, and what follows the first few.
+// Words, row after row; comments (#) and empty rows are left out, and what follows the first few. Programs
+// put commas or brackets around numbers.
 using WordRows = std::vector<std::vector<std::string>>;
+
+[[nodiscard]] inline bool is_number(const std::string& word) {
+  return number_of(word).has_value();
+}
+
+[[nodiscard]] inline std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream words(line);
+  return {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()};
+}
 
 [[nodiscard]] inline WordRows word_rows(const std::string& text) {
   WordRows rows;
   std::istringstream lines(text);
   constexpr std::size_t kEnough = 6;  // a matrix has four
   for (std::string line; rows.size() < kEnough && std::getline(lines, line);) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::vector<std::string> row;
-    for (std::string word; words >> word;) row.push_back(word);
+    line.erase(std::min(line.find('#'), line.size()));
+    std::string bare = line;
+    for (char& c : bare)
+      if (std::string_view(",;[]").find(c) != std::string_view::npos) c = ' ';
+    std::vector<std::string> row = words_of(bare);
+    if (!std::all_of(row.begin(), row.end(), is_number)) row = words_of(line);
     if (!row.empty()) rows.push_back(std::move(row));
   }
   return rows;
@@ -60,18 +77,32 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   return keys.whole_pixels(TextNode{}, "the image's width or height", value);
 }
 
+// Numbers behind the size; 0: a model that is not known here.
+[[nodiscard]] inline std::size_t colmap_count(const std::string& model) {
+  using Count = std::pair<std::string_view, std::size_t>;
+  for (const auto& [name, count] :
+       {Count{"SIMPLE_PINHOLE", 3}, Count{"PINHOLE", 4}, Count{"SIMPLE_RADIAL", 4}, Count{"RADIAL", 5},
+        Count{"OPENCV", 8}, Count{"OPENCV_FISHEYE", 8}, Count{"FULL_OPENCV", 12}, Count{"FOV", 5},
+        Count{"SIMPLE_RADIAL_FISHEYE", 4}, Count{"RADIAL_FISHEYE", 5}})
+    if (model == name) return count;
+  return 0;
+}
+
 // CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]. The first pixel's centre is (0.5, 0.5).
 [[nodiscard]] inline CameraFile read_colmap(const CameraKeys& keys, const WordRows& rows) {
   CameraFile file;
   const std::vector<std::string>& row = rows.front();
   const std::string& model = row[1];
   const std::vector<double> v = row_numbers(keys, row, 2);
-  demand_numbers(keys, model, v.size(), 5);
+  const std::size_t count = colmap_count(model);
+  if (count == 0) refuse_lens(keys, model);
+  if (v.size() != count + 2)
+    keys.fail(model + " has " + std::to_string(v.size()) + " numbers; expected " + std::to_string(count + 2) +
+              ": the width, the height, and " + std::to_string(count) + " of the model");
   file.camera.width = row_pixels(keys, v[0]);
   file.camera.height = row_pixels(keys, v[1]);
   const bool one_focal = model.starts_with("SIMPLE_") || model == "RADIAL" || model.starts_with("RADIAL_");
   const std::size_t first = one_focal ? 5 : 6;
-  demand_numbers(keys, model, v.size(), first);
   set_pinhole(keys, v[2], one_focal ? v[2] : v[3], v[first - 2] - 0.5, v[first - 1] - 0.5, file);
   std::vector<double> lens(v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
   set_lens(keys, model, lens, file);
@@ -112,8 +143,7 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   const CameraKeys keys(none, path);
   const auto numeric = [](const std::vector<std::string>& row, std::size_t from) {
     return row.size() > from &&
-           std::all_of(row.begin() + static_cast<std::ptrdiff_t>(from), row.end(),
-                       [](const std::string& word) { return number_of(word).has_value(); });
+           std::all_of(row.begin() + static_cast<std::ptrdiff_t>(from), row.end(), is_number);
   };
   const std::vector<std::string>& first = rows.front();
   if (first.size() >= 5 && numeric({first[0]}, 0) &&
@@ -127,7 +157,8 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   for (const std::vector<std::string>& row : rows)
     for (const double value : row_numbers(keys, row, 0)) all.push_back(value);
   CameraFile file;
-  if (rows.size() == 3 || rows.size() == 4) {
+  const bool matrix_in_one = rows.size() == 1 && all.size() == 9 && all[1] == 0 && all[3] == 0;
+  if (rows.size() == 3 || rows.size() == 4 || matrix_in_one) {
     set_matrix(keys, "the camera matrix", all, file);
     return file;
   }

@@ -33,13 +33,17 @@ namespace detail {
                                    "P2",
                                    "P0"};
   if (keys.has_any(matrices)) return read_matrix_camera(keys, matrices);
-  if (keys.has("intrinsics") && keys.has_any({"resolution", "camera_model", "distortion_model"}))
-    return read_kalibr(keys);
+  if (const TextNode* const list = root.find("intrinsics");
+      list != nullptr && list->kind == TextNode::Kind::kList) {
+    constexpr std::size_t kMostOfModel = 6;  // that Kalibr writes; a matrix has more
+    const bool matrix = keys.numbers({"intrinsics"}, "fx fy cx cy, or a camera matrix").size() > kMostOfModel;
+    return matrix ? read_matrix_camera(keys, {"intrinsics"}) : read_kalibr(keys);
+  }
   if (keys.has_any({"fl_x", "camera_angle_x"}) || (keys.has("frames") && where.empty()))
     return read_transforms(keys, root);
   if (keys.has("fx")) return read_plain_names(keys);
   if (where.empty())
-    for (const char* part : {"cam0", "color", "rgb", "camera", "intrinsics", "cam"})
+    for (const char* part : {"cam0", "color", "rgb", "camera", "Camera", "intrinsics", "intrinsic", "cam"})
       if (const TextNode* const node = root.find(part); node != nullptr && node->kind == TextNode::Kind::kMap)
         return read_camera_tree(*node, file, std::string(part) + ".");
   std::string found;

@@ -63,6 +63,33 @@ template <std::size_t N>
   }
 }
 
+// The list of distortion coefficients, whatever programs call it; empty where there is none. One under
+// another name is refused: a camera without its lens would be believed.
+[[nodiscard]] inline std::vector<double> lens_list(const CameraKeys& keys) {
+  static const CameraKeys::Names names{"distortion_coefficients",
+                                       "Distortion_Coefficients",
+                                       "distortion_coeffs",
+                                       "distortion_coef",
+                                       "distortion",
+                                       "distCoeffs",
+                                       "dist_coeffs",
+                                       "dist_coeff",
+                                       "dist_coefs",
+                                       "dist_coef",
+                                       "dist",
+                                       "coefficients",
+                                       "coeffs",
+                                       "D",
+                                       "d"};
+  if (!keys.has_any(names))
+    for (std::size_t i = 0; i < keys.map().keys.size(); ++i)
+      if (keys.map().items[i].kind != TextNode::Kind::kScalar &&
+          plain_word(keys.map().keys[i]).starts_with("dist"))
+        keys.fail(keys.map().items[i], keys.map().keys[i],
+                  "is not known here; expected " + std::string(names.front()));
+  return keys.numbers(names, "distortion coefficients");
+}
+
 // Whether an image of the lens can be undistorted to a pinhole's view, where no other lens comes near it.
 [[nodiscard]] constexpr bool is_wide(LensModel model) noexcept {
   return model == LensModel::kFisheye || model == LensModel::kFov;

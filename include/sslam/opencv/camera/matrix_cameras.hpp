@@ -35,18 +35,14 @@ inline CameraFile read_matrix_camera(const CameraKeys& keys, const CameraKeys::N
   set_matrix(keys, matrix.front(), keys.numbers(matrix, "a camera matrix"), file);
   file.camera.width = keys.optional_pixels({"image_width", "image_Width", "width", "w"});
   file.camera.height = keys.optional_pixels({"image_height", "image_Height", "height", "h"});
-  const CameraKeys::Names lens{"distortion_coefficients",
-                               "Distortion_Coefficients",
-                               "distortion_coeffs",
-                               "distCoeffs",
-                               "dist_coeffs",
-                               "distortion",
-                               "dist",
-                               "D",
-                               "d"};
   std::string model = keys.text({"distortion_model", "model"});
   if (keys.optional({"fisheye_model", "Fisheye"}, 0, "0 or 1") != 0) model = "fisheye";
-  const std::vector<double> values = keys.numbers(lens, "distortion coefficients");
+  std::vector<double> values = lens_list(keys);
+  const CameraKeys::Names named = lens_model(model) == LensModel::kFisheye
+                                      ? CameraKeys::Names{"k1", "k2", "k3", "k4"}
+                                      : CameraKeys::Names{"k1", "k2", "p1", "p2", "k3"};
+  if (values.empty() && keys.has_any(named))
+    for (const std::string_view key : named) values.push_back(keys.optional({key}, 0, kCoefficient));
   if (model.empty() && values.size() > 5) model = "rational";
   set_lens(keys, model.empty() ? "plumb_bob" : model, values, file);
   return file;
@@ -56,8 +52,7 @@ inline void set_kalibr_wide_lens(const CameraKeys& keys, const std::string& name
                                  const std::vector<double>& intrinsics, CameraFile& file) {
   std::vector<double> k(intrinsics.begin(),
                         intrinsics.begin() + static_cast<std::ptrdiff_t>(count_before_focal(model)));
-  const std::vector<double> lens =
-      keys.numbers({"distortion_coeffs", "distortion_coefficients"}, "distortion coefficients");
+  const std::vector<double> lens = lens_list(keys);
   const LensModel plane = lens_model(keys.text({"distortion_model"}));
   const bool straight = std::all_of(lens.begin(), lens.end(), [](double value) { return value == 0; });
   if (!straight && (model != LensModel::kOmni || plane != LensModel::kRadTan))
@@ -100,8 +95,7 @@ inline CameraFile read_kalibr(const CameraKeys& keys) {
   if (first > 0)
     set_kalibr_wide_lens(keys, camera, model, values, file);
   else
-    set_lens(keys, keys.text({"distortion_model"}),
-             keys.numbers({"distortion_coeffs", "distortion_coefficients"}, "distortion coefficients"), file);
+    set_lens(keys, keys.text({"distortion_model"}), lens_list(keys), file);
   file.frame_rate = keys.optional_positive({"rate_hz"}, "frames a second");
   static const std::vector<std::string> known{
       "camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "distortion_coefficients",

@@ -142,13 +142,27 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
     file.camera.pinhole = {focal, focal, 0.5 * (file.camera.width - 1), 0.5 * (file.camera.height - 1)};
     return file;
   }
+  if (angle >= std::numbers::pi)
+    keys.fail("camera_angle_x is " + short_text(angle) +
+              "; expected the horizontal field of view in radians; are these degrees, give --fov " +
+              short_text(angle) + " instead of this file");
   if (angle > 0)
     keys.fail("camera_angle_x without w and h; give --fov " + short_text(angle * 180 / std::numbers::pi) +
               " instead of this file");
   const TextNode* const frames = root.find("frames");
   if (&keys.map() == &root && frames != nullptr && !frames->items.empty()) {
     file = read_transforms(CameraKeys(frames->items.front(), keys.file(), "frames[0]."), root);
-    file.notes.push_back(keys.file() + ": the camera is that of the first of its frames");
+    double least = file.camera.pinhole.fx, most = least;
+    for (const TextNode& frame : frames->items) {
+      const double focal = CameraKeys(frame, keys.file(), "frames.").optional({"fl_x", "fx"}, least, kFocal);
+      least = std::min(least, focal);
+      most = std::max(most, focal);
+    }
+    constexpr double kSame = 1.01;
+    file.notes.push_back(keys.file() + ": the camera is that of the first of its frames" +
+                         (most > kSame * least ? "; their focal lengths go from " + short_text(least) +
+                                                     " to " + short_text(most) + " pixels"
+                                               : ""));
     return file;
   }
   keys.fail(keys.where() + "fl_x is missing; expected " + kFocal);
@@ -157,8 +171,7 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
 // fx, fy and cx, cy or ppx, ppy by these names: RealSense, Replica, NICE-SLAM, and others of their own.
 inline CameraFile read_plain_names(const CameraKeys& keys) {
   CameraFile file;
-  const std::vector<double> values =
-      keys.numbers({"coeffs", "coefficients", "distortion_coeffs", "distortion"}, "distortion coefficients");
+  const std::vector<double> values = lens_list(keys);
   file.camera.width = keys.optional_pixels({"width", "w", "image_width", "W"});
   file.camera.height = keys.optional_pixels({"height", "h", "image_height", "H"});
   std::string model = keys.text({"model", "distortion_model", "camera_model", "type"});
