@@ -219,6 +219,7 @@
 #include "sslam/track/worlds/no_final_pass.hpp"
 #include "sslam/track/worlds/read_out_search.hpp"
 #include "sslam/track/worlds/rolling_shutter.hpp"
+#include "sslam/track/worlds/shutter_straightening.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 #include "sslam/track/worlds/waiting_frames.hpp"
 #include "sslam/track/worlds/world.hpp"

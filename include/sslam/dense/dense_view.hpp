@@ -55,7 +55,8 @@ struct BoundedPlane {
 
 // normal . ray of a pixel, whose ray has z = 1, is linear in the pixel: row . (u, v, 1).
 [[nodiscard]] inline Vec3<double> ray_form(const Pinhole<double>& k, const Vec3<double>& n) {
-  return {n.x() / k.fx, n.y() / k.fy, n.z() - n.x() * k.cx / k.fx - n.y() * k.cy / k.fy};
+  const double x = n.x() / k.fx, y = n.y() / k.fy;
+  return {x, y, n.z() - x * k.cx - y * k.cy};
 }
 
 // 1 / z of a plane is linear in the pixel: row . (u, v, 1), in the frame of the plane's transform. Zero where

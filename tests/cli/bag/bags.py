@@ -89,10 +89,9 @@ class Room:
             if camera:
                 yield f"{prefix}/camera_info", "sensor_msgs/msg/CameraInfo", stamp, self.camera_info(header)
             if depth:
-                metres = read_png(depth_file) / 5000  # sslam's factor
-                pixels = np.where(metres == 0, np.nan, metres).astype(np.float32)
-                if depth == "16UC1":
-                    pixels = np.round(1000 * metres).astype(np.uint16)
+                pixels = np.round(1000 * (read_png(depth_file) / 5000)).astype(np.uint16)  # from sslam's factor
+                if depth == "32FC1":  # the same depths, in metres
+                    pixels = np.where(pixels == 0, np.nan, pixels / 1000).astype(np.float32)
                 yield f"{prefix}/depth/image_raw", "sensor_msgs/msg/Image", stamp, raw(header, pixels, depth)
         for stamp, (x, y, z, qx, qy, qz, qw) in self.truth:
             yield ("/mocap/camera", "geometry_msgs/msg/TransformStamped", stamp,

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -19,8 +18,7 @@
 #include "sslam/map/seen_patches.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
-#include "sslam/track/worlds/read_out_search.hpp"
-#include "sslam/track/worlds/rolling_shutter.hpp"
+#include "sslam/track/worlds/shutter_straightening.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
 namespace sslam {
@@ -47,8 +45,8 @@ template <Scalar S>
 class FinalPass {
  public:
   FinalPassOptions<S> options;
-  MapAdjustment<S, BundleSolver<S>> adjustment;
-  ReadOutSearch<S> read_out_search;
+  MapAdjustment<S> adjustment;
+  ShutterStraightening<S> shutter;
   FeatureAlignment<S> alignment;
 
   FinalPass() {
@@ -61,7 +59,7 @@ class FinalPass {
     visit_within("", self.options, visit);
     visit_stage("adjustment.", self.adjustment, visit);
     visit_stage("alignment.", self.alignment, visit);
-    visit_within("shutter.", self.read_out_search.options, visit);
+    visit_stage("", self.shutter, visit);
   }
 
   // A frame has been tracked, or lost; its features are copied, with the patches of those that see landmarks.
@@ -83,35 +81,34 @@ class FinalPass {
   template <class Fallback, class Refinement>
   void run(Map<S>& map, Fallback& fallback, Refinement& refinement, Relocalisation<S>& relocalisation,
            TrajectoryLog<S>& log) {
-    read_out_ = options.read_out;
+    shutter.begin(options.read_out);
     if (!map.empty() && !frames_.empty()) {
       log.sort();
       if (alignment.align(map) > 0) take_from_keyframes(map, log);
       const auto track_all = [&] {
-        adjustment.optimise_all(map);
         last_.point_landmarks.clear();
         last_.line_landmarks.clear();
         previous_.reset();
         for (std::size_t i = 0; i < frames_.size(); ++i) track(i, 1, map, fallback, refinement, log);
       };
-      if (read_out_ == 0) track_all();
-      // Each round knows the motion better by which the next one straightens.
-      for (int round = 0; round < kRounds && look_for_motion(map, log); ++round) {
-        straighten_keyframes(read_out_, map, log);
+      if (shutter.read_out() == 0) {
+        adjustment.optimise_all(map);
         track_all();
       }
+      // Each round knows the motion better by which the next one straightens.
+      for (int round = 0; round < kRounds && shutter.straighten_map(frames_, log, adjustment, map); ++round)
+        track_all();
       previous_.reset();
       for (std::size_t i = frames_.size(); i-- > 0;)
         if (log.find(frames_[i].index) == nullptr) track(i, -1, map, fallback, refinement, log);
       find_lost(map, fallback, refinement, relocalisation, log);
     }
     frames_.clear();
-    motions_.clear();
     previous_.reset();
   }
 
   // Seconds from the first row to the last by which the last run straightened, told or found; 0: it did not.
-  [[nodiscard]] double read_out() const noexcept { return read_out_; }
+  [[nodiscard]] double read_out() const noexcept { return shutter.read_out(); }
 
  private:
   static constexpr int kRounds = 3;  // a fourth gains a tenth at most
@@ -145,7 +142,7 @@ class FinalPass {
       align(map, refinement);
       place(i, reference, map, log);
     }
-    if (!straightens(i)) std::swap(frames_[i], frame_.frame);
+    if (!shutter.straightens(i)) std::swap(frames_[i], frame_.frame);
   }
 
   // frame_ has a pose; it gets that of its features once they are aligned.
@@ -199,65 +196,14 @@ class FinalPass {
   static bool is_keyframe(const Keyframe<S>& keyframe, const Frame<S>& frame) noexcept {
     return keyframe.frame.index == frame.index;
   }
-  [[nodiscard]] bool straightens(std::size_t i) const noexcept { return i < motions_.size() && motions_[i]; }
 
   // The frame's features into frame_, straightened where its motion is known: of a copy, as the next round
   // begins with what was seen.
   void take_features(std::size_t i, const Map<S>& map) {
-    if (!straightens(i)) return frame_.adopt(frames_[i]);
+    if (!shutter.straightens(i)) return frame_.adopt(frames_[i]);
     straight_ = frames_[i];
-    straighten(read_out_, i, map, map.keyframes[map.index(previous_->reference)], straight_);
+    shutter.straighten(i, frames_[i], map, map.keyframes[map.index(previous_->reference)], straight_);
     frame_.adopt(straight_);
-  }
-
-  // The features of frame i, whose motion is known, into `out`; their depths are those that the keyframe
-  // tells.
-  void straighten(double read_out, std::size_t i, const Map<S>& map, const Keyframe<S>& keyframe,
-                  Frame<S>& out) const {
-    const InverseDepths<S> depths = inverse_depths(map, keyframe, frames_[i], keyframe.cam_from_world);
-    RollingShutter<S>{read_out}.straighten(frames_[i], *motions_[i], depths, out);
-  }
-
-  // How the camera moves at each frame; and the read-out, unless it was told. False where nothing is left to
-  // straighten.
-  bool look_for_motion(Map<S>& map, const TrajectoryLog<S>& log) {
-    const bool told = options.read_out > 0;
-    if (!told && !read_out_search.options.search) return false;
-    std::vector<TimedPose<S>> poses(frames_.size());
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      poses[i].stamp = frames_[i].stamp;
-      if (const TrajectoryEntry<S>* entry = log.find(frames_[i].index))
-        poses[i].cam_from_world = TrajectoryLog<S>::pose(map, *entry);
-    }
-    motions_ = frame_motions<S>(poses);
-    return told || look_for_read_out(map, log);
-  }
-
-  bool look_for_read_out(Map<S>& map, const TrajectoryLog<S>& log) {
-    constexpr double kSettled = 0.001;  // seconds
-    const double before = read_out_;
-    const auto found = read_out_search.find(map, before, adjustment.solver.options,
-                                            [&](double t) { straighten_keyframes(t, map, log); });
-    if (!found || (before == 0 && read_out_search.negligible(*found)) || !(found->seconds > 0) ||
-        std::abs(found->seconds - before) < kSettled) {
-      straighten_keyframes(before, map, log);
-      if (before == 0) motions_.clear();
-      return false;
-    }
-    read_out_ = found->seconds;
-    return true;
-  }
-
-  // The features of keyframes whose motion is known, from what was seen. No read-out: just that.
-  void straighten_keyframes(double read_out, Map<S>& map, const TrajectoryLog<S>& log) {
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      if (!motions_[i]) continue;
-      Keyframe<S>& keyframe = map.keyframes[map.index(map.surviving(log.find(frames_[i].index)->reference))];
-      const Frame<S>& raw = frames_[i];
-      const bool own = is_keyframe(keyframe, raw) && keyframe.frame.points.size() == raw.points.size() &&
-                       keyframe.frame.lines.size() == raw.lines.size();
-      if (own) straighten(read_out, i, map, keyframe, keyframe.frame);
-    }
   }
 
   // Going backwards, a frame that has a pose is passed without being tracked again.
@@ -271,10 +217,8 @@ class FinalPass {
     return a > b ? a - b : b - a;
   }
 
-  std::vector<Frame<S>> frames_;                        // as they were seen, without their normals, in order
-  std::vector<std::optional<FrameMotion<S>>> motions_;  // of a rolling shutter, one a frame
+  std::vector<Frame<S>> frames_;  // as they were seen, without their normals, in order
   Frame<S> straight_;
-  double read_out_ = 0;
   std::optional<Previous> previous_;
   TrackedFrame<S> frame_, last_, around_;  // of the last two the matches alone
   RecentLandmarks<S> recent_;
