@@ -83,9 +83,14 @@ std::size_t count_joints(const RunOutcome& outcome) {
 }
 
 Json states_json(const RunOutcome& outcome) {
-  Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"lost", 0}};
+  Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"uncertain", 0}, {"lost", 0}};
   for (const FrameRecord& f : outcome.frames) states[name(f.state)] = states[name(f.state)].get<int>() + 1;
   return states;
+}
+
+std::ptrdiff_t count_uncertain(const RunOutcome& outcome) {
+  return std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                       [](const FrameRecord& frame) { return frame.state == State::kUncertain; });
 }
 
 std::size_t count_normals(const RunOutcome& outcome, NormalStatus status) {
@@ -221,6 +226,8 @@ void print_summary(const RunContext& context, const RunOutcome& outcome,
   std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
+  if (const auto uncertain = count_uncertain(outcome); uncertain > 0)
+    std::printf("uncertain        %td of these poses: none of their frames is in the map\n", uncertain);
   if (outcome.frames_dropped > 0)
     std::printf("dropped          %zu frames that came while the tracker was busy\n", outcome.frames_dropped);
   if (outcome.stream_losses > 0)
