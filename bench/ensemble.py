@@ -41,7 +41,7 @@ def render_rooms(program, folder, names):
 def frame_figures(path):
     """Share of the poses that structure had a part in, and the median number of inliers of a pose."""
     with open(path, newline="") as file:
-        posed = [row for row in csv.DictReader(file) if row["state"] in ("manhattan", "fallback")]
+        posed = [row for row in csv.DictReader(file) if row["state"] in ("manhattan", "fallback", "uncertain")]
     if not posed:
         return 0, 0
     marked = [int(row["structure"]) if "structure" in row else row["state"] == "manhattan" for row in posed]

@@ -99,7 +99,8 @@ Tracked SlamNode::track(const Image& image, double seconds) {
   }
   tracked.state = name(report.state);
   if (report.reason != sslam::Reason::kFine) tracked.state += std::string(": ") + name(report.reason);
-  if (report.has_pose()) tracked.pose = ros_pose(report.cam_from_world.inverse());
+  if (report.has_pose() && report.state != sslam::State::kUncertain)
+    tracked.pose = ros_pose(report.cam_from_world.inverse());
   tracked.map_changed = std::exchange(parts_->map_is_new, false);
   return tracked;
 }

@@ -49,7 +49,7 @@ struct StampedPose {
 
 // What came of an image.
 struct Tracked {
-  std::optional<Pose> pose;
+  std::optional<Pose> pose;  // none that is uncertain: the messages have no place for how far it may be off
   std::string state;         // such as "manhattan", "lost: too few matches"
   bool map_changed = false;  // and with it the path, since the last image
 };

@@ -21,9 +21,9 @@ class Chart extends Plot {
 
   markShown() { this.mark(this.share(null, shown.row), this.series.map((s) => s.values()[shown.row])); }
 
-  // Where the pose has no Manhattan rotation in it, or there is none.
+  // Where the pose has no Manhattan rotation in it, is uncertain, or there is none.
   drawBehind(context, height) {
-    const noted = (row) => (["lost", "fallback"].includes(run.look(row)) ? run.look(row) : null);
+    const noted = (row) => (["lost", "uncertain", "fallback"].includes(run.look(row)) ? run.look(row) : null);
     context.globalAlpha = 0.2;
     for (const span of spansOf(run.frames.count, noted)) {
       context.fillStyle = colour(span.key);

@@ -142,7 +142,7 @@ function showCurves() {
 }
 
 function showStates() {
-  byId("states-legend").append(...["manhattan", "fallback", "lost", "initialising"].flatMap((state) => [swatchOf(state), `${kStateWords[state]} \u00a0 `]));
+  byId("states-legend").append(...Object.entries(kStateWords).flatMap(([state, words]) => [swatchOf(state), `${words} \u00a0 `]));
   for (const one of runs) {
     if (one.frames.count === 0) continue;
     const strip = element("canvas", { "aria-label": `States of ${one.label}` });

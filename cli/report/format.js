@@ -39,10 +39,10 @@ function quantile(values, share) {
 function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 function cross(a, b) { return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]; }
 
-// The states of frames, in words.
+// The states of frames, in words; style.css has a colour for each.
 const kStateWords = {
   manhattan: "rotation from the Manhattan frame", fallback: "six degrees of freedom, without the Manhattan rotation",
-  lost: "lost", initialising: "no map yet",
+  uncertain: "pose too uncertain for a keyframe", lost: "lost", initialising: "no map yet",
 };
 
 // What kept a frame from the usual way, in words; frames.csv has the short names.

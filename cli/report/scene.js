@@ -282,7 +282,7 @@ class Scene3D {
     dots.needsUpdate = true;
     if (this.layers.planes) this.paintPlanes(axes);
     this.worst = run.errors ? quantile(run.errors.position_m.filter((value) => !Number.isNaN(value)), 0.98) || 1 : 1;
-    const states = Object.fromEntries(["manhattan", "fallback", "initialising", "lost"].map((s) => [s, ink(s)]));
+    const states = Object.fromEntries(Object.keys(kStateWords).map((s) => [s, ink(s)]));
     this.paint("path", this.pathRows.length, (i) => this.pathColour(this.pathRows[i], states));
     this.showFrame();
   }

@@ -37,6 +37,12 @@ function spanStory(span, first) {
     else if (next) after = `; found again at frame ${run.frames.text("index", span.to + 1)}`;
     return { state: "lost", text: `Lost for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}${after}.`, row: span.from, length };
   }
+  if (span.key === "uncertain") {
+    return {
+      state: "uncertain", row: span.from, length,
+      text: `The pose of ${countOf(length, "frame")} (${whereOf(span)}) is uncertain${because(span)}. The map was not built on ${length === 1 ? "it" : "them"}.`,
+    };
+  }
   if (span.key === "fallback") {
     return {
       state: "fallback", row: span.from, length,
@@ -78,10 +84,10 @@ function tellStory() {
   if (metrics.interrupted) items.push({ state: "lost", text: `The run was interrupted after ${countOf(frames.count, "frame")}.` });
   if (frames.has("state")) {
     // A frame that is found again says so where the loss is told.
-    const noted = (row) => ["lost", "fallback", "initialising"].includes(run.look(row)) && run.reason(row) !== "relocalised";
+    const noted = (row) => ["lost", "uncertain", "fallback", "initialising"].includes(run.look(row)) && run.reason(row) !== "relocalised";
     const spans = spansOf(frames.count, (row) => (noted(row) ? run.look(row) : null));
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
-    items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("fallback"), 4, "of the same"));
+    items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("uncertain"), 4, "of the same"), ...longest(told("fallback"), 4, "of the same"));
   }
   const marked = (column) => frames.has(column) ? Array.from({ length: frames.count }, (_, row) => row).filter((row) => frames.number(column, row) === 1) : [];
   for (const row of marked("loop_closed"))
@@ -117,12 +123,13 @@ function tellStory() {
 
 function headline() {
   const rows = (state) => Array.from({ length: run.frames.count }, (_, row) => run.look(row)).filter((s) => s === state).length;
-  const lost = rows("lost"), fallback = rows("fallback");
+  const lost = rows("lost"), uncertain = rows("uncertain"), fallback = rows("fallback");
   if (run.kind === "live") return `The run goes on: ${run.total > 0 ? `${run.frames.count} of ${countOf(run.total, "frame")}` : countOf(run.frames.count, "frame")} so far.`;
   if (run.frames.count === 0) return "";
   if (run.metrics.tracked === 0) return "No frame was tracked. The list below says why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];
-  parts.push(fallback === 0 ? "the Manhattan rotation is in the pose of every frame with a map" : `${countOf(fallback, "frame")} without the Manhattan rotation`);
+  if (uncertain > 0) parts.push(`${countOf(uncertain, "frame")} with an uncertain pose`);
+  parts.push(fallback === 0 ? `the Manhattan rotation is in the pose of every ${uncertain > 0 ? "other " : ""}frame with a map` : `${countOf(fallback, "frame")} without the Manhattan rotation`);
   return `${parts.join("; ")}.`;
 }
 

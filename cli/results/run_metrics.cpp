@@ -61,7 +61,7 @@ std::size_t count_joints(const RunOutcome& outcome) {
 }
 
 Json states_json(const RunOutcome& outcome) {
-  Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"lost", 0}};
+  Json states = {{"initialising", 0}, {"manhattan", 0}, {"fallback", 0}, {"uncertain", 0}, {"lost", 0}};
   for (const FrameRecord& f : outcome.frames) states[name(f.state)] = states[name(f.state)].get<int>() + 1;
   return states;
 }

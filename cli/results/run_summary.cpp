@@ -47,6 +47,8 @@ void print_run_summary(const RunContext& context, const RunOutcome& outcome,
   std::printf("speed            %.1f frames/s; frame time median %.1f ms, p95 %.1f ms\n",
               times["frames_per_second"].get<double>(), times["frame_ms"]["median"].get<double>(),
               times["frame_ms"]["p95"].get<double>());
+  if (const int uncertain = metrics["states"]["uncertain"].get<int>(); uncertain > 0)
+    std::printf("uncertain        %d of these poses: none of their frames is in the map\n", uncertain);
   if (outcome.frames_dropped > 0)
     std::printf("dropped          %zu frames that arrived while the tracker was busy\n",
                 outcome.frames_dropped);

@@ -35,6 +35,8 @@ cv::Scalar state_colour(State state) {
       return bgr({53, 189, 184});
     case State::kFallback:
       return bgr({240, 180, 41});
+    case State::kUncertain:
+      return bgr({183, 148, 246});
     case State::kLost:
       return bgr({255, 92, 138});
     case State::kInitialising:

@@ -174,6 +174,7 @@
 #include "sslam/track/localise/normal_demand.hpp"
 #include "sslam/track/localise/normal_trust.hpp"
 #include "sslam/track/localise/place_recognition.hpp"
+#include "sslam/track/localise/pose_certainty.hpp"
 #include "sslam/track/localise/refinement.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/localise/rotation.hpp"

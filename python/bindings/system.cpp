@@ -68,6 +68,7 @@ void bind_result(nb::module_& module) {
       .value("MANHATTAN", State::kManhattan,
              "rotation from the Manhattan frame, translation from points and lines")
       .value("FALLBACK", State::kFallback, "full pose from points and lines")
+      .value("UNCERTAIN", State::kUncertain, "a pose too uncertain to build the map on")
       .value("LOST", State::kLost, "no pose");
   nb::enum_<Reason>(module, "Reason", nb::is_arithmetic(), "Why a frame has its state.")
       .value("FINE", Reason::kFine, "nothing to say")

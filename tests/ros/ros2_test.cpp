@@ -100,7 +100,7 @@ void rclcpp::play() {
     publish("camera_info", info);
     publish("image", image);
     demand(states.size() == i, "each image has an answer");
-    if (!report.has_pose()) continue;
+    if (!report.has_pose() || report.state == sslam::State::kUncertain) continue;
     const sslam::SE3<double> pose = report.cam_from_world.inverse();
     demand(poses.size() == ++tracked && tf.size() == tracked, "a pose for each that the system has");
     demand(same_place(poses.back().pose.position, pose.translation), "the place");

@@ -13,6 +13,30 @@
 using namespace sslam;
 using namespace sslam::testing;
 
+namespace {
+
+// Leaves the frame those of its points that lie nearest to the middle of the image.
+void keep_middle(Frame<double>& frame, std::size_t points) {
+  const auto aside = [&](const PointFeature<double>& point) {
+    return (point.pixel - Vec2<double>(frame.width, frame.height) / 2).norm();
+  };
+  std::sort(frame.points.begin(), frame.points.end(),
+            [&](const auto& a, const auto& b) { return aside(a) < aside(b); });
+  frame.points.resize(std::min(points, frame.points.size()));
+  frame.lines.clear();
+}
+
+// Poses that are uncertain are answered, instead of being refused as too uncertain to use.
+void accept_uncertain(presets::Structure<double>& pipeline) {
+  for (PoseAcceptance<double>* acceptance :
+       {&pipeline.fallback.options.acceptance, &pipeline.refinement.options.acceptance}) {
+    acceptance->max_rotation_sigma = radians(20.0);
+    acceptance->max_position_sigma = 0.5;
+  }
+}
+
+}  // namespace
+
 TEST_CASE("The pipeline starts early and tracks a walk through a room") {
   Simulation simulation(walk(150));
   presets::Structure<double> pipeline;
@@ -104,6 +128,52 @@ TEST_CASE("The motion carries over a short loss, where it is believed") {
   const TrackResult<double> found = pipeline.track(frame);
   REQUIRE(found.has_pose());
   REQUIRE((found.reason == Reason::kRelocalised) == (horizon == 0));
+}
+
+TEST_CASE("While little holds a pose it is uncertain, and no keyframe is made of it") {
+  constexpr std::size_t kFrom = 80, kTo = 86;
+  const bool looked_at = GENERATE(true, false);
+  Simulation simulation(walk(140));
+  presets::Structure<double> pipeline;
+  accept_uncertain(pipeline);
+  if (!looked_at) pipeline.certainty.options = {0, 0};
+  std::vector<TrackResult<double>> results;
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    Frame<double> frame = simulation.frame(k);
+    if (k >= kFrom && k < kTo) keep_middle(frame, 12);
+    results.push_back(pipeline.track(frame));
+  }
+  const auto begin = results.begin() + kFrom, end = results.begin() + kTo;
+  const auto uncertain = [](const auto& r) { return r.state == State::kUncertain; };
+  const auto keyframe = [](const auto& r) { return r.keyframe; };
+  REQUIRE(std::all_of(begin, end, [](const auto& r) { return r.has_pose() && r.has_covariance(); }));
+  REQUIRE(std::all_of(begin, end, [&](const auto& r) { return uncertain(r) == looked_at; }));
+  REQUIRE(std::any_of(begin, end, keyframe) == !looked_at);
+  REQUIRE(std::none_of(end, results.end(), uncertain));
+  REQUIRE(std::any_of(end, results.end(), keyframe));
+  REQUIRE(pipeline.trajectory().entries().size() == simulation.size());
+  REQUIRE((position_error(pipeline, simulation) < 0.04) == looked_at);
+}
+
+TEST_CASE("A lost camera that little tells where it is has an uncertain pose until more does") {
+  Simulation simulation(walk(120));
+  presets::Structure<double> pipeline;
+  accept_uncertain(pipeline);
+  pipeline.motion.options.horizon = 0;
+  track_first(pipeline, simulation, 80);
+  Frame<double> dark = simulation.dark_frame(80);
+  REQUIRE(pipeline.track(dark).state == State::kLost);
+  Frame<double> bare = simulation.frame(81);
+  keep_middle(bare, 12);
+  const TrackResult<double> found = pipeline.track(bare);
+  REQUIRE(found.state == State::kUncertain);
+  REQUIRE(found.reason == Reason::kRelocalised);
+  REQUIRE_FALSE(found.keyframe);
+  Frame<double> whole = simulation.frame(82);
+  const TrackResult<double> tracked = pipeline.track(whole);
+  REQUIRE(tracked.has_pose());
+  REQUIRE(tracked.state != State::kUncertain);
+  REQUIRE(tracked.reason != Reason::kRelocalised);
 }
 
 TEST_CASE("A later run finds its place in the map of an earlier one") {

@@ -29,6 +29,7 @@ void visit_parameters(Pipeline& p, Visit&& visit) {
   visit_stage("translation.", p.translation, visit);
   visit_stage("fallback.", p.fallback, visit);
   visit_stage("refinement.", p.refinement, visit);
+  visit_stage("certainty.", p.certainty, visit);
   visit_stage("motion.", p.motion, visit);
   visit_stage("relocalisation.", p.relocalisation, visit);
   visit_stage("keyframes.", p.keyframes, visit);

@@ -21,9 +21,9 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
   using ScalarType = S;
   using Stages = StageTypes;
   using Worlds::atlas, Worlds::backfill, Worlds::final_pass, Worlds::trial;
+  using Worlds::certainty, Worlds::fallback, Worlds::refinement, Worlds::rotation, Worlds::stance;
   using Worlds::demand, Worlds::evidence, Worlds::trust, Worlds::motion, Worlds::relocalisation,
       Worlds::timer;
-  using Worlds::fallback, Worlds::refinement, Worlds::rotation, Worlds::stance;
   using Worlds::initialisation, Worlds::keyframes, Worlds::loops, Worlds::mapping, Worlds::upkeep;
   using Worlds::last_number, Worlds::worlds;
   using Worlds::translation;
@@ -132,7 +132,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     for (const Keyframe<S>& kf : world_.map.keyframes)
       world_.log.add(world_.map, kf.frame.index, kf.frame.stamp, kf.id, kf.cam_from_world);
     world_.cursor.move_to(world_.map.keyframes.back().id, frame.frame.stamp);
-    backfill.run(world_.map, fallback, refinement, keyframes, mapping, world_.log);
+    backfill.run(world_.map, fallback, refinement, certainty, keyframes, mapping, world_.log);
     frame.read_back(reference());
     result.state = answer.trusted() ? State::kManhattan : State::kFallback;
     result.cam_from_world = frame.cam_from_world;
@@ -155,12 +155,14 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     if (!lost || !revisit(result)) lose(result, estimate.reason);
   }
 
-  // The frame has its place; if it was not tracked there, then it has been found.
+  // The frame has its place; if it was not tracked there, then it has been found. Of an uncertain pose
+  // nothing is built or learned.
   void settle(const PoseEstimate<S>& estimate, bool tracked, TrackResult<S>& result) {
     TrackedFrame<S>& frame = frames_.current();
     Map<S>& map = world_.map;
+    const bool certain = certainty.certain(estimate);
     if (!tracked) trial.drift.end();
-    trial.weigh(frame, result.structure, estimate.point_inliers + estimate.line_inliers, step_);
+    if (certain) trial.weigh(frame, result.structure, estimate.point_inliers + estimate.line_inliers, step_);
     if (!localise_only && (trial.refutes(map) || !trial.believes(frame)))
       return lose(result, Reason::kManhattanRejected);
     result.point_inliers = estimate.point_inliers;
@@ -173,9 +175,11 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
       result.state = State::kFallback;
       result.reason = Reason::kRelocalised;
     }
-    result.keyframe = !localise_only && world_.cursor.advance(map, frame, estimate, keyframes, [&](S depth) {
-      return upkeep.insert(map, frame, world_.cursor.reference(), depth, mapping, loops);
-    });
+    if (!certain) result.state = State::kUncertain;
+    result.keyframe =
+        certain && !localise_only && world_.cursor.advance(map, frame, estimate, keyframes, [&](S depth) {
+          return upkeep.insert(map, frame, world_.cursor.reference(), depth, mapping, loops);
+        });
     motion.update(frame.cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);

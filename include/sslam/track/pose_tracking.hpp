@@ -11,6 +11,7 @@
 #include "sslam/track/localise/motion_model.hpp"
 #include "sslam/track/localise/normal_demand.hpp"
 #include "sslam/track/localise/normal_trust.hpp"
+#include "sslam/track/localise/pose_certainty.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/localise/rotation_evidence.hpp"
 #include "sslam/track/worlds/world.hpp"
@@ -30,6 +31,7 @@ class PoseTracking {
   typename Stages::Translation translation;
   typename Stages::Fallback fallback;
   typename Stages::Refinement refinement;
+  PoseCertainty<S> certainty;
   ConstantVelocity<S> motion;
   Relocalisation<S> relocalisation;
   typename Stages::Timer timer;
@@ -69,7 +71,7 @@ class PoseTracking {
     result.reason = !prior             ? Reason::kNoManhattanFrame
                     : result.structure ? Reason::kFine
                                        : Reason::kManhattanRejected;
-    if (estimate.ok() && prior) {
+    if (estimate.ok() && prior && certainty.certain(estimate)) {
       evidence.learn(result.index, frame.manhattan_frame, answer.seen->rotation, solved);
       if (frame.manhattan_frame < world.map.world_from_manhattan.size())
         trust.learn(answer.normal_axes, solved * world.map.world_from_manhattan[frame.manhattan_frame]);

@@ -141,7 +141,10 @@ class State(enum.IntEnum):
     FALLBACK = 2
     """full pose from points and lines"""
 
-    LOST = 3
+    UNCERTAIN = 3
+    """a pose too uncertain to build the map on"""
+
+    LOST = 4
     """no pose"""
 
 class Reason(enum.IntEnum):

@@ -32,6 +32,7 @@ PoseEstimate<double> judged(int count, bool turned, double sigma_degrees = 0.5) 
 
 TEST_CASE("Fewer matches are enough where the Manhattan frame gives the rotation") {
   CHECK(judged<6>(10, false).ok());
+  CHECK(judged<6>(10, false).scene_depth == 2);
   CHECK(judged<6>(9, false).reason == Reason::kTooFewMatches);
   CHECK(judged<3>(5, true).ok());
   CHECK(judged<6>(5, true).ok());

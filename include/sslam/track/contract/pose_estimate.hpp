@@ -12,6 +12,7 @@ struct PoseEstimate {
   int point_inliers = 0;
   int line_inliers = 0;
   Mat6<S> covariance = Mat6<S>::Zero();  // as in TrackResult; zero: not all six freedoms were solved for
+  S scene_depth = 0;                     // median, of what the pose was solved from; 0: not told
 
   [[nodiscard]] bool ok() const noexcept { return reason == Reason::kFine; }
 };

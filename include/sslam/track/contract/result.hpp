@@ -12,6 +12,7 @@ enum class State : std::uint8_t {
   kInitialising,  // no map yet
   kManhattan,     // rotation from the Manhattan frame, translation from points and lines
   kFallback,      // full pose from points and lines
+  kUncertain,     // a pose too uncertain to build the map on
   kLost,          // no pose
 };
 
@@ -35,6 +36,8 @@ enum class Reason : std::uint8_t {
       return "manhattan";
     case State::kFallback:
       return "fallback";
+    case State::kUncertain:
+      return "uncertain";
     case State::kLost:
       return "lost";
   }
@@ -87,7 +90,7 @@ struct TrackResult {
   bool maps_joined = false;  // by this frame's place, known from a map that had been left
 
   [[nodiscard]] bool has_pose() const noexcept {
-    return state == State::kManhattan || state == State::kFallback;
+    return state == State::kManhattan || state == State::kFallback || state == State::kUncertain;
   }
   // The pose was refined against the map. One that began the map was not, nor are those of NoRefinement.
   [[nodiscard]] bool has_covariance() const noexcept { return covariance(0, 0) > 0; }

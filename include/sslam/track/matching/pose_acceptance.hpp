@@ -44,11 +44,11 @@ template <Scalar S, int D>
   estimate.reason = Reason::kNoConsensus;
   if (static_cast<S>(inliers) < acceptance.min_inlier_share * static_cast<S>(matches.size())) return estimate;
   estimate.reason = Reason::kUncertainPose;
+  estimate.scene_depth = matches.median_depth(cam_from_world);
   Mat<S, D, D> covariance;
   if (!inverse_of<S, D>(information, covariance)) return estimate;
   const auto spread = [&](int at) { return largest_sigma<S>(covariance.template block<3, 3>(at, at)); };
-  if (!(spread(D - 3) < acceptance.max_position_sigma * matches.median_depth(cam_from_world)))
-    return estimate;
+  if (!(spread(D - 3) < acceptance.max_position_sigma * estimate.scene_depth)) return estimate;
   if (D == 6 && !(spread(0) < acceptance.max_rotation_sigma)) return estimate;
   if constexpr (D == 6) estimate.covariance = covariance;
   estimate.reason = Reason::kFine;

@@ -9,6 +9,7 @@
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/track/contract/concepts.hpp"
+#include "sslam/track/localise/pose_certainty.hpp"
 #include "sslam/track/mapping/keyframe_cursor.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 #include "sslam/track/worlds/waiting_frames.hpp"
@@ -53,10 +54,10 @@ class Backfill {
 
   // Tracks the waiting frames one after the other, away from the first and the last keyframe of the first
   // map: between them from the first until track is lost, then from the last; before them backwards. Poses go
-  // into the log, and keyframes into the map, as they do forwards.
+  // into the log, and keyframes of those that are certain into the map, as they do forwards.
   template <class Fallback, class Refinement, class Keyframes, class Mapping>
-  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, const Keyframes& keyframes,
-           Mapping& mapping, TrajectoryLog<S>& log) {
+  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, const PoseCertainty<S>& certainty,
+           const Keyframes& keyframes, Mapping& mapping, TrajectoryLog<S>& log) {
     const auto position = [&](KeyframeId id, int after) {  // of the first waiting frame past the keyframe's
       const std::int64_t index = map.keyframes[map.index(id)].frame.index + after;
       std::ptrdiff_t at = 0;
@@ -70,8 +71,9 @@ class Backfill {
       return sweep(
           map, fallback, refinement, begin, end, step,
           [&](TrackedFrame<S>& frame, const PoseEstimate<S>& estimate) {
-            cursor_.advance(map, frame, estimate, keyframes,
-                            [&](S depth) { return mapping.insert(map, frame, depth); });
+            if (certainty.certain(estimate))
+              cursor_.advance(map, frame, estimate, keyframes,
+                              [&](S depth) { return mapping.insert(map, frame, depth); });
             return cursor_.reference();
           },
           log);
