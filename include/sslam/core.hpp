@@ -186,6 +186,7 @@
 #include "sslam/track/loops/map_join.hpp"
 #include "sslam/track/loops/no_loop_closing.hpp"
 #include "sslam/track/loops/place_confirmation.hpp"
+#include "sslam/track/mapping/feature_follower.hpp"
 #include "sslam/track/mapping/fusion.hpp"
 #include "sslam/track/mapping/initialisation.hpp"
 #include "sslam/track/mapping/keyframe_choice.hpp"

@@ -16,7 +16,7 @@
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/translation.hpp"
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/matching/mutual_matcher.hpp"
+#include "sslam/track/mapping/feature_follower.hpp"
 
 namespace sslam {
 
@@ -75,40 +75,8 @@ class DecoupledInitialisation {
   Reason adopt(const TrackedFrame<S>& frame, Reason reason) {
     reference_ = frame;
     has_reference_ = true;
-    last_pixels_.resize(frame.frame.points.size());
-    for (std::size_t i = 0; i < last_pixels_.size(); ++i) last_pixels_[i] = frame.frame.points[i].pixel;
-    last_rotation_ = frame.cam_from_world.rotation;
+    follower_.begin(frame);
     return reason;
-  }
-
-  // Finds the reference's features in this frame, near where they were last seen.
-  void follow(const TrackedFrame<S>& frame) {
-    const SO3<S> turn = frame.cam_from_world.rotation * last_rotation_.inverse();
-    const Pinhole<S>& pinhole = frame.frame.pinhole;
-    matcher_.match(
-        reference_.frame.points, frame.frame.points, options.match,
-        [&](std::int32_t i, auto visit) {
-          const Vec3<S> ray = turn * pinhole.unproject(last_pixels_[Map<S>::index(i)]);
-          if (ray.z() <= 0) return;
-          const Vec2<S> expected = pinhole.project(ray);
-          const PointFeature<S>& from = reference_.frame.points[Map<S>::index(i)];
-          frame.grid.near(expected, options.search_radius, [&](std::int32_t j) {
-            const PointFeature<S>& to = frame.frame.points[Map<S>::index(j)];
-            const S scale = to.sigma / from.sigma;
-            if (scale < options.match.max_scale_ratio && scale * options.match.max_scale_ratio > 1 &&
-                (to.pixel - expected).squaredNorm() < options.search_radius * options.search_radius)
-              visit(j);
-          });
-        },
-        pairs_);
-    keep_consistent_rotation<S>(reference_.frame.points, frame.frame.points, pairs_);
-    last_rotation_ = frame.cam_from_world.rotation;
-    for (Vec2<S>& pixel : last_pixels_) {
-      const Vec3<S> ray = turn * pinhole.unproject(pixel);
-      if (ray.z() > 0) pixel = pinhole.project(ray);
-    }
-    for (const IndexPair& p : pairs_)
-      last_pixels_[Map<S>::index(p.first)] = frame.frame.points[Map<S>::index(p.second)].pixel;
   }
 
   [[nodiscard]] Reason relative_pose(const TrackedFrame<S>& frame, SO3<S>& R_10, Vec3<S>& t_10) {
@@ -216,10 +184,8 @@ class DecoupledInitialisation {
 
   TrackedFrame<S> reference_;
   bool has_reference_ = false;
-  std::vector<Vec2<S>> last_pixels_;  // where each feature of the reference was last seen
-  SO3<S> last_rotation_;
+  FeatureFollower<S> follower_;
   std::optional<RotationObservation<S>> prior_;  // frame from reference
-  MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
   std::vector<BearingMatch<S>> bearings_;
   std::vector<std::uint8_t> inliers_;
@@ -232,7 +198,7 @@ Reason DecoupledInitialisation<S>::start(TrackedFrame<S>& frame, Map<S>& map) {
   if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
     return Reason::kTooFewFeatures;
   if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
-  follow(frame);
+  pairs_ = follower_.follow(reference_, frame, options.search_radius, options.match, seed);
   if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
   SO3<S> R_10;
   Vec3<S> t_10;
