@@ -43,7 +43,8 @@ CameraFinding examine_camera(const System& system, const CameraPrior& prior, dou
 // A round costs little, so that it may be for a small gain.
 constexpr double kMinGain = 0.02;
 
-// One round: as much of the dataset as it takes.
+// One round: as much of the dataset as it takes, with the final pass, in whose map features are better
+// placed.
 CameraFinding probe(io::Dataset& dataset, Settings settings, const MaskSource& masks,
                     const CameraPrior& prior) {
   System system(std::move(settings));
@@ -51,15 +52,16 @@ CameraFinding probe(io::Dataset& dataset, Settings settings, const MaskSource& m
   ExtractedFrame input;
   constexpr std::array<std::size_t, 3> kEnough{20, 40, 80};  // keyframes at which the map is asked
   const auto* next = kEnough.begin();
-  while (!Interrupt::asked() && stream.next(input)) {
+  CameraFinding found;
+  while (found.verdict == CameraVerdict::kOpen && !Interrupt::asked() && stream.next(input)) {
     if (!input.usable() || !system.track(input).keyframe) continue;
     if (next == kEnough.end() || count_keyframes(system.map()) < *next) continue;
     ++next;
-    CameraFinding found = examine_camera(system, prior, kMinGain);
-    if (found.verdict != CameraVerdict::kOpen) return found;
+    found = examine_camera(system, prior, kMinGain);
   }
   system.finish();
-  return examine_camera(system, prior, kMinGain);
+  CameraFinding finished = examine_camera(system, prior, kMinGain);
+  return finished.verdict == CameraVerdict::kOpen ? found : finished;
 }
 
 // Tracks the first part of the dataset with `settings` until the map says something about the camera, again
@@ -69,7 +71,8 @@ CameraFinding find_camera_by_tracking(io::Dataset& dataset, const Settings& sett
                                       const CameraPrior& prior) {
   Settings wanted = settings;
   wanted.normals = {};
-  wanted.final_pass = wanted.keep_pictures = wanted.live = false;
+  wanted.final_pass = true;
+  wanted.keep_pictures = wanted.live = false;
   CameraFinding best;
   best.camera = settings.camera;
   constexpr int kRounds = 6;

@@ -40,7 +40,7 @@ std::size_t pairs_with_last(const std::vector<Keyframe<double>>& keyframes,
   std::size_t count = 0, wrong = 0;
   for (std::size_t k = 1; k < keyframes.size(); ++k) {
     const std::vector<IndexPair>& pairs =
-        follower.follow(reference, tracked(keyframes[k], told[k]), kRadius, {}, 1);
+        follower.follow(reference, tracked(keyframes[k], told[k]), kRadius, 18, {}, 1);
     count = pairs.size();
     wrong = 0;
     for (const IndexPair& p : pairs)

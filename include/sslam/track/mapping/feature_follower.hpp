@@ -22,14 +22,16 @@ class FeatureFollower {
     last_rotation_ = reference.cam_from_world.rotation;
   }
 
-  // Pairs of features, of the reference and of the frame, within `radius` pixels of where they should be. How
-  // the camera has turned since the last frame is a guess: as the frames' rotations say, as it turned before,
-  // or not at all. The guess that finds most is taken.
+  // Pairs of features, of the reference and of the frame, within `radius` pixels of where they should be. The
+  // camera has turned since the last frame as the frames' rotations say. Where that finds less than `enough`,
+  // it may have turned as it did before, or not at all: what finds most is taken.
   const std::vector<IndexPair>& follow(const TrackedFrame<S>& reference, const TrackedFrame<S>& frame,
-                                       S radius, const PointMatchOptions<S>& options, std::uint64_t seed) {
+                                       S radius, std::size_t enough, const PointMatchOptions<S>& options,
+                                       std::uint64_t seed) {
     SO3<S> turn = frame.cam_from_world.rotation * last_rotation_.inverse();
     find(reference, frame, turn, radius, options, pairs_);
     for (const SO3<S>& guess : {last_turn_, SO3<S>()}) {
+      if (pairs_.size() >= enough) break;
       find(reference, frame, guess, radius, options, other_pairs_);
       if (other_pairs_.size() <= pairs_.size()) continue;
       std::swap(pairs_, other_pairs_);

@@ -198,8 +198,9 @@ Reason DecoupledInitialisation<S>::start(TrackedFrame<S>& frame, Map<S>& map) {
   if (frame.frame.points.size() < static_cast<std::size_t>(options.min_points))
     return Reason::kTooFewFeatures;
   if (!has_reference_) return adopt(frame, Reason::kTooFewMatches);
-  pairs_ = follower_.follow(reference_, frame, options.search_radius, options.match, seed);
-  if (static_cast<int>(pairs_.size()) < options.min_matches) return adopt(frame, Reason::kTooFewMatches);
+  const auto enough = static_cast<std::size_t>(options.min_matches);
+  pairs_ = follower_.follow(reference_, frame, options.search_radius, enough, options.match, seed);
+  if (pairs_.size() < enough) return adopt(frame, Reason::kTooFewMatches);
   SO3<S> R_10;
   Vec3<S> t_10;
   const Reason reason = relative_pose(frame, R_10, t_10);
