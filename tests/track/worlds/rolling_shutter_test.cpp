@@ -142,6 +142,15 @@ TEST_CASE("The read-out is found where the shutter bends many features too far t
   CHECK(position_error(found, simulation) < 0.4 * position_error(global, simulation));
 }
 
+TEST_CASE("A read-out that the observations do not tell from 0 counts as none") {
+  Simulation simulation(trembling_walk());
+  const std::vector<Frame<double>> frames = rolled_frames(simulation);
+  presets::Structure<double> pipeline;
+  pipeline.final_pass.shutter.search.options.min_sigmas = 1000;
+  track(pipeline, frames);
+  CHECK(pipeline.final_pass.read_out() == 0);
+}
+
 TEST_CASE("A global shutter is known as one, and its poses stay as they are to the bit") {
   Simulation simulation(trembling_walk());
   std::vector<Frame<double>> frames;

@@ -23,6 +23,7 @@ struct ReadOutSearchOptions {
   double longest = 0.1;            // seconds: what is longer is not believed
   double shortest = 0.003;         // seconds, below which all rows are taken to be read at once
   double min_gain = 0.01;          // of the cost: the same
+  double min_sigmas = 5;           // over its standard deviation: the same
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -33,13 +34,16 @@ struct ReadOutSearchOptions {
     visit("shortest", self.shortest, Unit::kSeconds, 0, 0.2, "read-out that matters");
     visit("min_gain", self.min_gain, Unit::kShare, 0, 1,
           "of the cost of the observations, without which there is none");
+    visit("min_sigmas", self.min_sigmas, Unit::kNumber, 0, 1000,
+          "of a read-out over its standard deviation, below which there is none");
   }
 };
 static_assert(Described<ReadOutSearchOptions>);
 
 struct ReadOutEstimate {
   double seconds = 0;
-  double gain = 0;  // what it saves of the cost that the time has from which the search began
+  double sigma = 0;  // standard deviation: 1 over the square root of the cost's curvature
+  double gain = 0;   // what it saves of the cost that the time has from which the search began
 };
 
 template <Scalar S>
@@ -61,9 +65,10 @@ class ReadOutSearch {
     see(start);
     graph_ = window_.graph;
     const Trial first = attempt(start, see);
+    double curvature = 0;
     Trial before = first, last = attempt(start + options.first_step, see);
     for (int step = 0; step < kSteps; ++step) {
-      const double curvature = (last.slope - before.slope) / (last.seconds - before.seconds);
+      curvature = (last.slope - before.slope) / (last.seconds - before.seconds);
       if (!(curvature > 0)) return std::nullopt;
       const double next = last.seconds - last.slope / curvature;
       if (!(std::abs(next) <= options.longest)) return std::nullopt;
@@ -71,12 +76,13 @@ class ReadOutSearch {
       last = attempt(next, see);
       if (std::abs(last.seconds - before.seconds) < kResolution) break;
     }
-    return ReadOutEstimate{last.seconds, 1 - last.cost / first.cost};
+    return ReadOutEstimate{last.seconds, 1 / std::sqrt(curvature), 1 - last.cost / first.cost};
   }
 
   // Of a search that began at 0: all rows are read at once, or nearly so.
   [[nodiscard]] bool negligible(const ReadOutEstimate& found) const noexcept {
-    return found.seconds < options.shortest || found.gain < options.min_gain;
+    return found.seconds < options.shortest || found.gain < options.min_gain ||
+           found.seconds < options.min_sigmas * found.sigma;
   }
 
  private:
