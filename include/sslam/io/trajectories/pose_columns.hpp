@@ -68,6 +68,7 @@ inline std::size_t order_columns(std::vector<TextRow>& rows, std::string_view he
   for (TextRow& row : rows) {
     if (row.cells.size() != names.size()) continue;
     std::vector<std::string_view> cells;
+    cells.reserve(columns.size());
     for (const auto& column : columns) cells.push_back(row.cells[*column]);
     cells.resize(names.size());  // the others are not looked at
     row.cells = std::move(cells);
