@@ -38,6 +38,11 @@ struct LandmarkCommon {
   std::int32_t found = 0;             // frames in which it was
   LandmarkId plane = kNone;           // that it lies on
   bool alive = true;                  // false: culled or fused; a later landmark may take its id
+
+  [[nodiscard]] bool seen_by(KeyframeId keyframe) const {
+    return std::any_of(observations.begin(), observations.end(),
+                       [&](const Observation& o) { return o.keyframe == keyframe; });
+  }
 };
 
 template <Scalar S>
@@ -45,6 +50,16 @@ struct PointLandmark : LandmarkCommon {
   Vec3<S> position;           // world
   Vec3<S> viewing_direction;  // unit mean of the directions from the point to the cameras that see it
   S extent = 0;  // feature sigma times distance, metres at one pixel per radian: predicts the octave
+
+  // `centre` (world) is where the camera of its newest observation was, and `sigma` that of the feature.
+  void take_view(const Vec3<S>& centre, S sigma) {
+    const Vec3<S> to_camera = centre - position;
+    const S distance = to_camera.norm();
+    extent = sigma * distance;
+    const auto n = static_cast<S>(observations.size());
+    const Vec3<S> mean = viewing_direction * (n - 1) + to_camera / std::max(distance, S(1e-9));
+    viewing_direction = mean.normalized();
+  }
 };
 
 template <Scalar S>
@@ -53,6 +68,30 @@ struct LineLandmark : LandmarkCommon {
   Vec3<S> start, end;        // world, on the line: the part that has been seen
   std::int8_t axis = kNone;  // Manhattan axis that it follows, by its number (manhattan_axes.hpp), or kNone
 };
+
+// As the keyframe `creator` makes it, before anything observes it. `position`: world.
+template <Scalar S>
+[[nodiscard]] PointLandmark<S> new_point_landmark(const Vec3<S>& position, KeyframeId creator) {
+  PointLandmark<S> point;
+  point.position = position;
+  point.viewing_direction.setZero();
+  point.first_keyframe = creator;
+  point.visible = point.found = 1;
+  return point;
+}
+
+// The same; `start` and `end` lie on `line`, all in the world.
+template <Scalar S>
+[[nodiscard]] LineLandmark<S> new_line_landmark(const Line3<S>& line, const Vec3<S>& start,
+                                                const Vec3<S>& end, KeyframeId creator) {
+  LineLandmark<S> landmark;
+  landmark.line = line;
+  landmark.start = start;
+  landmark.end = end;
+  landmark.first_keyframe = creator;
+  landmark.visible = landmark.found = 1;
+  return landmark;
+}
 
 // Its members say where it is: points and lines whose `plane` it is. No feature observes it.
 template <Scalar S>

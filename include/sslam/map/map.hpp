@@ -3,7 +3,6 @@
 // covisibility, members of planes, and what landmarks look like.
 #pragma once
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -12,10 +11,11 @@
 #include "sslam/map/free_ids.hpp"
 #include "sslam/map/id_shift.hpp"
 #include "sslam/map/keyframe.hpp"
-#include "sslam/map/look_index.hpp"
+#include "sslam/map/landmark_index.hpp"
 #include "sslam/map/manhattan_axes.hpp"
 #include "sslam/map/observation_links.hpp"
 #include "sslam/map/plane_members.hpp"
+#include "sslam/map/removed_keyframe.hpp"
 
 namespace sslam {
 
@@ -42,35 +42,24 @@ class Map {
     const auto id = static_cast<KeyframeId>(keyframes.size());
     keyframe.id = id;
     keyframe.neighbours.clear();  // those of another map, where some may be newer than it
-    keyframes.push_back(std::move(keyframe));
-    Keyframe<S>& kf = keyframes.back();
+    Keyframe<S>& kf = keyframes.emplace_back(std::move(keyframe));
     ObservationLinks::complete(id, kf.point_landmarks, points);
     ObservationLinks::complete(id, kf.line_landmarks, lines);
     for (std::size_t i = 0; i < kf.point_landmarks.size(); ++i)
       if (kf.point_landmarks[i] != kNone) renew_point(kf.point_landmarks[i], kf, i);
     for (std::size_t i = 0; i < kf.line_landmarks.size(); ++i)
-      if (kf.line_landmarks[i] != kNone) look_like(kf.line_landmarks[i], kf.frame.lines[i].descriptor);
+      if (kf.line_landmarks[i] != kNone)
+        line_index_.look_like(lines, kf.line_landmarks[i], kf.frame.lines[i].descriptor);
     update_covisibility(id);
     return id;
   }
 
   LandmarkId add_point(const Vec3<S>& position, KeyframeId creator) {
-    PointLandmark<S> point;
-    point.position = position;
-    point.viewing_direction.setZero();
-    point.first_keyframe = creator;
-    point.visible = point.found = 1;
-    return free_points_.settle(points, std::move(point));
+    return point_index_.settle(points, new_point_landmark(position, creator));
   }
 
   LandmarkId add_line(const Line3<S>& line, const Vec3<S>& start, const Vec3<S>& end, KeyframeId creator) {
-    LineLandmark<S> landmark;
-    landmark.line = line;
-    landmark.start = start;
-    landmark.end = end;
-    landmark.first_keyframe = creator;
-    landmark.visible = landmark.found = 1;
-    return free_lines_.settle(lines, std::move(landmark));
+    return line_index_.settle(lines, new_line_landmark(line, start, end, creator));
   }
 
   LandmarkId add_plane(const Plane3<S>& plane, std::int8_t axis) {
@@ -87,20 +76,18 @@ class Map {
     Keyframe<S>& kf = keyframes[index(keyframe)];
     LineLandmark<S>& line = lines[index(id)];
     ObservationLinks::add(id, line, keyframe, feature, kf.line_landmarks);
-    look_like(id, kf.frame.lines[feature].descriptor);
+    line_index_.look_like(lines, id, kf.frame.lines[feature].descriptor);
     if (line.axis == kNone) line.axis = kf.line_axes.empty() ? std::int8_t{kNone} : kf.line_axes[feature];
   }
 
   // The id is given to a later landmark: whoever keeps ids beyond the next add_ must be ready for that.
   void erase_point(LandmarkId id) {
     lay_point(id, kNone);
-    erase(points, free_points_, id, &Keyframe<S>::point_landmarks);
-    point_looks_.remove(id);
+    erase(points, point_index_, id, &Keyframe<S>::point_landmarks);
   }
   void erase_line(LandmarkId id) {
     lay_line(id, kNone);
-    erase(lines, free_lines_, id, &Keyframe<S>::line_landmarks);
-    line_looks_.remove(id);
+    erase(lines, line_index_, id, &Keyframe<S>::line_landmarks);
   }
 
   // Its members lie on none afterwards.
@@ -131,10 +118,10 @@ class Map {
     lines = later.lines;
     planes = later.planes;
     world_from_manhattan = later.world_from_manhattan;
-    forget_indices();
-    free_points_ = later.free_points_;
-    free_lines_ = later.free_lines_;
+    point_index_ = later.point_index_;
+    line_index_ = later.line_index_;
     free_planes_ = later.free_planes_;
+    members_.forget();
   }
 
   // Takes over all of another map; its ids follow those of this one.
@@ -159,10 +146,10 @@ class Map {
 
   // Finds the ids that can be given away in landmarks that were filled in from outside.
   void collect_free_ids() {
-    forget_indices();
-    free_points_.collect(points);
-    free_lines_.collect(lines);
+    point_index_.collect(points);
+    line_index_.collect(lines);
     free_planes_.collect(planes);
+    members_.forget();
   }
 
   // Withdraws one observation; a landmark left with fewer than two goes too.
@@ -177,16 +164,10 @@ class Map {
 
   // Hands the observations of `from` to `into`, where `into` has none in that keyframe, and erases `from`.
   void fuse_points(LandmarkId from, LandmarkId into) {
-    hand_over(points, from, into,
-              [&](const Observation& o) { observe_point(into, o.keyframe, index(o.feature)); });
-    if (points[index(into)].plane == kNone) lay_point(into, points[index(from)].plane);
-    erase_point(from);
+    fuse(points, from, into, &Map::observe_point, &Map::lay_point, &Map::erase_point);
   }
   void fuse_lines(LandmarkId from, LandmarkId into) {
-    hand_over(lines, from, into,
-              [&](const Observation& o) { observe_line(into, o.keyframe, index(o.feature)); });
-    if (lines[index(into)].plane == kNone) lay_line(into, lines[index(from)].plane);
-    erase_line(from);
+    fuse(lines, from, into, &Map::observe_line, &Map::lay_line, &Map::erase_line);
   }
 
   // Withdraws all that the keyframe sees and frees its features; what hangs on its pose now hangs on
@@ -200,61 +181,32 @@ class Map {
     forget_all(keyframes[index(id)].line_landmarks, [&](LandmarkId l) { forget_line(l, id); });
     Keyframe<S>& kf = keyframes[index(id)];
     for (const Neighbour& n : kf.neighbours) set_neighbour(keyframes[index(n.keyframe)].neighbours, {id, 0});
-    Keyframe<S> rest;
-    rest.id = id;
-    rest.parent = parent;
-    rest.cam_from_parent = kf.cam_from_world * keyframes[index(parent)].cam_from_world.inverse();
-    kf = std::move(rest);
+    kf = remains_of(kf, keyframes[index(parent)]);
   }
 
   // The keyframe itself, or the parent that carries its place on.
-  [[nodiscard]] KeyframeId surviving(KeyframeId id) const noexcept {
-    while (!keyframes[index(id)].alive()) id = keyframes[index(id)].parent;
-    return id;
-  }
+  [[nodiscard]] KeyframeId surviving(KeyframeId id) const noexcept { return survivor(keyframes, id); }
 
   // cam_from_world of a keyframe, alive or carried on by its parents.
-  [[nodiscard]] SE3<S> pose(KeyframeId id) const noexcept {
-    SE3<S> cam_from_survivor;
-    for (; !keyframes[index(id)].alive(); id = keyframes[index(id)].parent)
-      cam_from_survivor = cam_from_survivor * keyframes[index(id)].cam_from_parent;
-    return cam_from_survivor * keyframes[index(id)].cam_from_world;
-  }
+  [[nodiscard]] SE3<S> pose(KeyframeId id) const noexcept { return keyframe_pose(keyframes, id); }
 
   // Counts anew which keyframes share landmarks with this one, on both sides.
   void update_covisibility(KeyframeId id) { covisibility_.renew(id, points, lines, keyframes); }
 
   // Which landmarks may look like a descriptor.
-  [[nodiscard]] const LookIndex& point_looks() const { return made(point_looks_, points); }
-  [[nodiscard]] const LookIndex& line_looks() const { return made(line_looks_, lines); }
+  [[nodiscard]] const LookIndex& point_looks() const { return point_index_.looks(points); }
+  [[nodiscard]] const LookIndex& line_looks() const { return line_index_.looks(lines); }
 
   [[nodiscard]] static constexpr std::size_t index(std::int32_t id) noexcept {
     return static_cast<std::size_t>(id);
   }
 
  private:
-  void forget_indices() {
-    point_looks_.forget();
-    line_looks_.forget();
-    members_.forget();
-  }
-
-  template <class Landmarks>
-  [[nodiscard]] static const LookIndex& made(LookIndex& looks, const Landmarks& landmarks) {
-    if (!looks.made()) looks.make(landmarks);
-    return looks;
-  }
-
   template <class Landmarks>
   void lay(Landmarks& landmarks, std::vector<LandmarkId> PlaneMembers::Lists::*kind, LandmarkId id,
            LandmarkId plane) {
     members_.move(id, kind, landmarks[index(id)].plane, plane);
     landmarks[index(id)].plane = plane;
-  }
-
-  void look_like(LandmarkId line, const Descriptor& descriptor) {
-    lines[index(line)].descriptor = descriptor;
-    line_looks_.set(line, descriptor);
   }
 
   static void move_ids(LandmarkCommon& landmark, const IdShift& shift) {
@@ -264,43 +216,34 @@ class Map {
   }
 
   void renew_point(LandmarkId id, const Keyframe<S>& kf, std::size_t feature) {
-    PointLandmark<S>& point = points[index(id)];
-    const Vec3<S> to_camera = kf.cam_from_world.inverse().translation - point.position;
-    const S distance = to_camera.norm();
-    point.descriptor = kf.frame.points[feature].descriptor;
-    point_looks_.set(id, point.descriptor);
-    point.extent = kf.frame.points[feature].sigma * distance;
-    const auto n = static_cast<S>(point.observations.size());
-    const Vec3<S> mean = point.viewing_direction * (n - 1) + to_camera / std::max(distance, S(1e-9));
-    point.viewing_direction = mean.normalized();
+    const PointFeature<S>& seen = kf.frame.points[feature];
+    points[index(id)].take_view(kf.cam_from_world.inverse().translation, seen.sigma);
+    point_index_.look_like(points, id, seen.descriptor);
   }
 
   template <class Landmarks, class Member>
-  void erase(Landmarks& landmarks, FreeIds& free, LandmarkId id, Member seen) {
-    auto& landmark = landmarks[index(id)];
-    if (!landmark.alive) return;
-    ObservationLinks::remove_all(id, landmark, keyframes, seen);
-    landmark.alive = false;
-    free.add(id);
+  void erase(Landmarks& landmarks, LandmarkIndex& known, LandmarkId id, Member seen) {
+    if (!landmarks[index(id)].alive) return;
+    ObservationLinks::remove_all(id, landmarks[index(id)], keyframes, seen);
+    known.bury(landmarks, id);
   }
 
-  template <class Landmarks, class Observe>
-  void hand_over(Landmarks& landmarks, LandmarkId from, LandmarkId into, Observe observe) {
+  template <class Landmarks>
+  void fuse(Landmarks& landmarks, LandmarkId from, LandmarkId into,
+            void (Map::*observe)(LandmarkId, KeyframeId, std::size_t),
+            void (Map::*lay_on)(LandmarkId, LandmarkId), void (Map::*erase_one)(LandmarkId)) {
     const std::vector<Observation> moved = landmarks[index(from)].observations;
-    for (const Observation& o : moved) {
-      const auto& has = landmarks[index(into)].observations;
-      if (std::none_of(has.begin(), has.end(),
-                       [&](const Observation& p) { return p.keyframe == o.keyframe; }))
-        observe(o);
-    }
+    for (const Observation& o : moved)
+      if (!landmarks[index(into)].seen_by(o.keyframe)) (this->*observe)(into, o.keyframe, index(o.feature));
     landmarks[index(into)].visible += landmarks[index(from)].visible;
     landmarks[index(into)].found += landmarks[index(from)].found;
+    if (landmarks[index(into)].plane == kNone) (this->*lay_on)(into, landmarks[index(from)].plane);
+    (this->*erase_one)(from);
   }
 
-  FreeIds free_points_, free_lines_, free_planes_;
-  // Made when they are first asked.
-  mutable LookIndex point_looks_, line_looks_;
-  mutable PlaneMembers members_;
+  LandmarkIndex point_index_, line_index_;
+  FreeIds free_planes_;
+  mutable PlaneMembers members_;  // made when they are first asked
   Covisibility covisibility_;
 };
 

@@ -43,8 +43,7 @@ class LandmarkFusion {
                std::vector<LandmarkId> line_ids);
 
   [[nodiscard]] static bool sees(const LandmarkCommon& landmark, KeyframeId keyframe) {
-    return std::any_of(landmark.observations.begin(), landmark.observations.end(),
-                       [&](const Observation& o) { return o.keyframe == keyframe; });
+    return landmark.seen_by(keyframe);
   }
 
  private:
@@ -116,10 +115,10 @@ void LandmarkFusion<S>::take_in(Map<S>& map, KeyframeId target, std::vector<Land
   const Keyframe<S>& kf = map.keyframes[map.index(target)];
   grid_.build(kf.frame.points, kf.frame.width, kf.frame.height);
   for (const LandmarkId id : point_ids)
-    if (id != kNone && map.points[map.index(id)].alive && !sees(map.points[map.index(id)], target))
+    if (id != kNone && map.points[map.index(id)].alive && !map.points[map.index(id)].seen_by(target))
       fuse_point(map, target, id);
   for (const LandmarkId id : line_ids)
-    if (id != kNone && map.lines[map.index(id)].alive && !sees(map.lines[map.index(id)], target))
+    if (id != kNone && map.lines[map.index(id)].alive && !map.lines[map.index(id)].seen_by(target))
       fuse_line(map, target, id);
 }
 
