@@ -220,6 +220,7 @@
 #include "sslam/track/worlds/final_pass.hpp"
 #include "sslam/track/worlds/frame_motion.hpp"
 #include "sslam/track/worlds/map_trial.hpp"
+#include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/no_final_pass.hpp"
 #include "sslam/track/worlds/read_out_search.hpp"
 #include "sslam/track/worlds/rolling_shutter.hpp"

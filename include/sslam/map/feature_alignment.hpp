@@ -64,7 +64,7 @@ class FeatureAlignment {
     if (patch == nullptr || landmark.observations.empty()) return false;
     const Observation& middle = middle_observation(map, landmark);
     const Keyframe<S>& keyframe = map.keyframes[map.index(middle.keyframe)];
-    if (keyframe.frame.index == frame.index) return false;
+    if (keyframe.made_of(frame)) return false;
     const PointFeature<S>& original = keyframe.frame.points[map.index(middle.feature)];
     const FeaturePatch* reference = patch_of(keyframe.frame, original);
     if (reference == nullptr) return false;

@@ -42,6 +42,9 @@ struct Keyframe {
 
   [[nodiscard]] bool alive() const noexcept { return parent == kNone; }
 
+  // Whether it is what this frame became. Where features are may differ since then.
+  [[nodiscard]] bool made_of(const Frame<S>& seen) const noexcept { return frame.index == seen.index; }
+
   void drop_unseen_patches() {
     keep_seen_patches<S>(std::exchange(frame.patches, {}), point_landmarks.values(), frame);
   }
@@ -49,7 +52,7 @@ struct Keyframe {
   // Becomes what it is in a later state of its map. Features go as a whole or stay as they are: those that
   // are here already are not copied.
   void renew_from(const Keyframe& later) {
-    const bool has_features = frame.index == later.frame.index && frame.stamp == later.frame.stamp &&
+    const bool has_features = made_of(later.frame) && frame.stamp == later.frame.stamp &&
                               frame.points.size() == later.frame.points.size() &&
                               frame.lines.size() == later.frame.lines.size();
     if (!has_features) frame = later.frame;

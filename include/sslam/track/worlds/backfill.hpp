@@ -11,6 +11,7 @@
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/localise/pose_certainty.hpp"
 #include "sslam/track/mapping/keyframe_cursor.hpp"
+#include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 #include "sslam/track/worlds/waiting_frames.hpp"
 
@@ -111,7 +112,9 @@ class Backfill {
     for (std::ptrdiff_t i = begin; i != end && std::abs(i - next) <= options.max_misses; i += step) {
       auto& waiting = waiting_[i];
       TrackedFrame<S>& frame = waiting.frame;
-      const PoseEstimate<S> estimate = track(frame, map, fallback, refinement);
+      frame.cam_from_world = previous_.cam_from_world;
+      const PoseEstimate<S> estimate =
+          neighbours_.track(previous_, previous_, map, fallback, refinement, frame);
       if (!estimate.ok()) continue;
       const KeyframeId reference = take(frame, estimate);
       log.add(map, frame.frame.index, frame.frame.stamp, reference, frame.cam_from_world);
@@ -122,17 +125,9 @@ class Backfill {
     return next;
   }
 
-  template <class Fallback, class Refinement>
-  PoseEstimate<S> track(TrackedFrame<S>& frame, Map<S>& map, Fallback& fallback, Refinement& refinement) {
-    recent_.gather(previous_, previous_);
-    frame.cam_from_world = previous_.cam_from_world;
-    const PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame);
-    return estimate.ok() ? refinement.refine(map, nullptr, frame) : estimate;
-  }
-
   WaitingFrames<S> waiting_;
   TrackedFrame<S> previous_;  // its matches and its pose alone
-  RecentLandmarks<S> recent_;
+  NeighbourTracking<S> neighbours_;
   KeyframeCursor<S> cursor_;
 };
 

@@ -18,6 +18,7 @@
 #include "sslam/map/seen_patches.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
+#include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/shutter_straightening.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
@@ -123,21 +124,16 @@ class FinalPass {
   template <class Fallback, class Refinement>
   void track(std::size_t i, int step, Map<S>& map, Fallback& fallback, Refinement& refinement,
              TrajectoryLog<S>& log) {
-    if (step < 0) look_up(i + 1, map, log);
-    const TrajectoryEntry<S>* entry = log.find(frames_[i].index);
-    if (entry != nullptr) {
-      previous_ = Previous{i, map.surviving(entry->reference), TrajectoryLog<S>::pose(map, *entry)};
-      if (is_keyframe(map.keyframes[map.index(previous_->reference)], frames_[i])) return;
-    }
+    if (step < 0) look_up(i + 1, map, log);  // it may have been passed without being tracked
+    if (look_up(i, map, log) && map.keyframes[map.index(previous_->reference)].made_of(frames_[i])) return;
     if (!previous_ || distance(i, previous_->position) > static_cast<std::size_t>(options.max_misses) + 1)
       return;
     const KeyframeId reference = previous_->reference;
     take_features(i, map);
     frame_.cam_from_world = previous_->cam_from_world;
     around_.read_back(map.keyframes[map.index(reference)]);
-    recent_.gather(step > 0 ? last_ : around_, around_);
-    PoseEstimate<S> estimate = fallback.track(map, recent_, nullptr, frame_);
-    if (estimate.ok()) estimate = refinement.refine(map, nullptr, frame_);
+    const PoseEstimate<S> estimate =
+        neighbours_.track(step > 0 ? last_ : around_, around_, map, fallback, refinement, frame_);
     if (estimate.ok()) {
       align(map, refinement);
       place(i, reference, map, log);
@@ -188,13 +184,9 @@ class FinalPass {
       const TrajectoryEntry<S>* entry = log.find(frame.index);
       if (entry == nullptr) continue;
       const Keyframe<S>& keyframe = map.keyframes[map.index(map.surviving(entry->reference))];
-      if (is_keyframe(keyframe, frame) && keyframe.frame.points.size() == frame.points.size())
+      if (keyframe.made_of(frame) && keyframe.frame.points.size() == frame.points.size())
         frame.points = keyframe.frame.points;
     }
-  }
-
-  static bool is_keyframe(const Keyframe<S>& keyframe, const Frame<S>& frame) noexcept {
-    return keyframe.frame.index == frame.index;
   }
 
   // The frame's features into frame_, straightened where its motion is known: of a copy, as the next round
@@ -206,11 +198,12 @@ class FinalPass {
     frame_.adopt(straight_);
   }
 
-  // Going backwards, a frame that has a pose is passed without being tracked again.
-  void look_up(std::size_t i, const Map<S>& map, const TrajectoryLog<S>& log) {
-    if (i >= frames_.size()) return;
-    if (const TrajectoryEntry<S>* entry = log.find(frames_[i].index))
-      previous_ = Previous{i, map.surviving(entry->reference), TrajectoryLog<S>::pose(map, *entry)};
+  // Frame i is the one that was passed last, if there is one and it has a pose.
+  bool look_up(std::size_t i, const Map<S>& map, const TrajectoryLog<S>& log) {
+    const TrajectoryEntry<S>* entry = i < frames_.size() ? log.find(frames_[i].index) : nullptr;
+    if (entry == nullptr) return false;
+    previous_ = Previous{i, map.surviving(entry->reference), TrajectoryLog<S>::pose(map, *entry)};
+    return true;
   }
 
   [[nodiscard]] static std::size_t distance(std::size_t a, std::size_t b) noexcept {
@@ -221,7 +214,7 @@ class FinalPass {
   Frame<S> straight_;
   std::optional<Previous> previous_;
   TrackedFrame<S> frame_, last_, around_;  // of the last two the matches alone
-  RecentLandmarks<S> recent_;
+  NeighbourTracking<S> neighbours_;
 };
 static_assert(FinalStage<FinalPass<double>, double>);
 

@@ -57,7 +57,7 @@ template <Scalar S>
   InverseDepths<S> out;
   out.points.assign(frame.points.size(), 0);
   out.lines.assign(frame.lines.size(), 0);
-  const bool same = keyframe.frame.index == frame.index;
+  const bool same = keyframe.made_of(frame);
   std::vector<S> depths;
   const auto look = [&](const Vec3<S>& position, std::size_t feature, bool own, std::vector<S>& inverse) {
     const S depth = (cam_from_world * position).z();

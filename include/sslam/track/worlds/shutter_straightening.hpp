@@ -110,8 +110,7 @@ class ShutterStraightening {
       if (!motions_[i]) continue;
       const Frame<S>& raw = frames[i];
       Keyframe<S>& keyframe = map.keyframes[map.index(map.surviving(log.find(raw.index)->reference))];
-      const bool own = keyframe.frame.index == raw.index &&
-                       keyframe.frame.points.size() == raw.points.size() &&
+      const bool own = keyframe.made_of(raw) && keyframe.frame.points.size() == raw.points.size() &&
                        keyframe.frame.lines.size() == raw.lines.size();
       if (own) straighten(read_out, i, raw, map, keyframe, keyframe.frame);
     }
