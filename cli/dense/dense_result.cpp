@@ -122,7 +122,7 @@ void write_dense(const std::filesystem::path& folder, const DenseResult& result)
   if (result.empty()) return;
   const TexturedMesh mesh = textured_mesh(result.model, result.atlas);
   write_glb(folder / kModelFile, mesh, result.up);
-  write_obj(folder / kModelObjFile, mesh, result.up);
+  write_obj(folder, mesh, result.up);
   write_model_ply(folder / kModelPlyFile, result.model, result.atlas);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/results/gltf_file.hpp"
+#include "cli/results/run_folder.hpp"
 #include "sslam/io/files/output_file.hpp"
 
 namespace sslam::cli {
@@ -97,11 +98,10 @@ void write_glb(const std::filesystem::path& path, const TexturedMesh& mesh, cons
   write_gltf(path, std::move(gltf), buffer);
 }
 
-void write_obj(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up) {
-  const std::string name = path.stem().string();
+void write_obj(const std::filesystem::path& folder, const TexturedMesh& mesh, const Vec3<double>& up) {
   const Mat3<float> turn = turn_y_up(up).toRotationMatrix().cast<float>();
-  std::string obj =
-      "# planes of a map with the images on them; y is up\nmtllib " + name + ".mtl\nusemtl planes\n";
+  std::string obj = std::string("# planes of a map with the images on them; y is up\nmtllib ") +
+                    kModelMaterialFile + "\nusemtl planes\n";
   for (const Vec3<float>& place : mesh.places) append_row<3>(obj, "v", turn * place);
   for (const Vec3<float>& normal : mesh.normals) append_row<3>(obj, "vn", turn * normal);
   for (const Vec2<float>& texture : mesh.textures)  // from the lower left corner
@@ -114,11 +114,12 @@ void write_obj(const std::filesystem::path& path, const TexturedMesh& mesh, cons
     }
     obj += '\n';
   }
-  const std::filesystem::path folder = path.parent_path();
-  write_bytes(folder / (name + ".jpg"), {reinterpret_cast<const char*>(mesh.jpeg.data()), mesh.jpeg.size()});
-  write_bytes(folder / (name + ".mtl"),
-              "newmtl planes\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 0\nmap_Kd " + name + ".jpg\n");
-  write_bytes(path, obj);
+  write_bytes(folder / kModelTextureFile,
+              {reinterpret_cast<const char*>(mesh.jpeg.data()), mesh.jpeg.size()});
+  write_bytes(folder / kModelMaterialFile,
+              std::string("newmtl planes\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 0\nmap_Kd ") +
+                  kModelTextureFile + "\n");
+  write_bytes(folder / kModelObjFile, obj);
 }
 
 void write_model_ply(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas) {

@@ -15,9 +15,9 @@ namespace sslam::cli {
 // written.
 void write_glb(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up);
 
-// The same mesh, turned so that `up` is +y, with its material file and texture (NAME.mtl, NAME.jpg) beside
-// NAME.obj. Throws Error.
-void write_obj(const std::filesystem::path& path, const TexturedMesh& mesh, const Vec3<double>& up);
+// The same mesh, turned so that `up` is +y, as the folder's kModelObjFile, kModelMaterialFile and
+// kModelTextureFile. Throws Error.
+void write_obj(const std::filesystem::path& folder, const TexturedMesh& mesh, const Vec3<double>& up);
 
 // The cells of all planes as squares; their corners are a coloured cloud. Binary. Throws Error.
 void write_model_ply(const std::filesystem::path& path, const dense::DenseModel& model, const Atlas& atlas);
