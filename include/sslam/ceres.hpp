@@ -13,3 +13,4 @@
 #include "sslam/ceres/manifolds.hpp"
 #include "sslam/ceres/marginal_covariance.hpp"
 #include "sslam/ceres/plane_costs.hpp"
+#include "sslam/ceres/schur_problem.hpp"

@@ -2,17 +2,14 @@
 // Solves a BundleGraph with Ceres: landmarks are eliminated first, what remains is dense and small.
 #pragma once
 
-#include <ceres/loss_function.h>
-#include <ceres/ordered_groups.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
-#include <cmath>
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <vector>
 
 #include "sslam/ceres/bundle_blocks.hpp"
 #include "sslam/ceres/plane_costs.hpp"
+#include "sslam/ceres/schur_problem.hpp"
 #include "sslam/core/parameter.hpp"
 #include "sslam/solver/bundle/bundle_summary.hpp"
 
@@ -65,22 +62,16 @@ class CeresBundleSolver {
 
  private:
   [[nodiscard]] static ceres::Problem::Options problem_options() {
-    ceres::Problem::Options o;
-    o.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    o.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    o.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem::Options o = borrowing_problem();
     o.disable_all_safety_checks = true;
     return o;
   }
 
   [[nodiscard]] ceres::Solver::Options solver_options() const {
-    ceres::Solver::Options o;
-    o.linear_solver_type = options.sparse ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
-    o.linear_solver_ordering = ordering_;
+    ceres::Solver::Options o = schur_options(options.sparse, ordering_);
     o.max_num_iterations = options.max_iterations;
     o.function_tolerance = options.function_tolerance;
     o.num_threads = options.num_threads;
-    o.logging_type = ceres::SILENT;
     return o;
   }
 
@@ -93,46 +84,36 @@ class CeresBundleSolver {
     plane_loss_ = std::make_unique<ceres::CauchyLoss>(options.losses.plane);
   }
 
-  // An observation that cannot be evaluated at the start would fail the whole problem: it is left out.
-  template <class Cost>
-  static bool evaluable(const Cost& cost, const double* pose, const double* landmark) {
-    double residual[2];
-    const double* const blocks[] = {pose, landmark};
-    return cost.Evaluate(blocks, residual, nullptr) && std::isfinite(residual[0]) &&
-           std::isfinite(residual[1]);
+  // The edges of one landmark, whose block this is. False: none can be evaluated.
+  template <class Cost, class Edge>
+  bool add_edges(const BundleGraph<double>& graph, const std::vector<Edge>& edges, std::int32_t first,
+                 std::int32_t last, std::deque<Cost>& costs, ceres::LossFunction& loss, double* block,
+                 ceres::Problem& problem) {
+    const int before = observations_;
+    for (auto e = first; e < last; ++e) {
+      const Edge& edge = edges[static_cast<std::size_t>(e)];
+      const auto view = static_cast<std::size_t>(edge.view);
+      costs.emplace_back(edge, graph.views[view].pinhole);
+      if (add_observation(costs.back(), loss, problem, blocks_.poses[view].data(), block)) ++observations_;
+    }
+    return observations_ > before;
   }
 
   void add_points(const BundleGraph<double>& graph, ceres::Problem& problem) {
     for (std::size_t i = 0; i < graph.points.size(); ++i) {
       double* const block = blocks_.points[i].data();
-      bool used = false;
-      for (auto e = graph.points[i].first_edge; e < graph.points[i].last_edge; ++e) {
-        const PointEdge<double>& edge = graph.point_edges[static_cast<std::size_t>(e)];
-        const auto view = static_cast<std::size_t>(edge.view);
-        point_costs_.emplace_back(edge, graph.views[view].pinhole);
-        if (!evaluable(point_costs_.back(), blocks_.poses[view].data(), block)) continue;
-        problem.AddResidualBlock(&point_costs_.back(), point_loss_.get(), blocks_.poses[view].data(), block);
-        used = true;
-        ++observations_;
-      }
-      if (used) ordering_->AddElementToGroup(block, 0);
+      if (add_edges(graph, graph.point_edges, graph.points[i].first_edge, graph.points[i].last_edge,
+                    point_costs_, *point_loss_, block, problem))
+        ordering_->AddElementToGroup(block, 0);
     }
   }
 
   void add_lines(const BundleGraph<double>& graph, ceres::Problem& problem) {
     for (std::size_t i = 0; i < graph.lines.size(); ++i) {
       double* const block = blocks_.lines[i].data();
-      bool used = false;
-      for (auto e = graph.lines[i].first_edge; e < graph.lines[i].last_edge; ++e) {
-        const LineEdge<double>& edge = graph.line_edges[static_cast<std::size_t>(e)];
-        const auto view = static_cast<std::size_t>(edge.view);
-        line_costs_.emplace_back(edge, graph.views[view].pinhole);
-        if (!evaluable(line_costs_.back(), blocks_.poses[view].data(), block)) continue;
-        problem.AddResidualBlock(&line_costs_.back(), line_loss_.get(), blocks_.poses[view].data(), block);
-        used = true;
-        ++observations_;
-      }
-      if (!used) continue;
+      if (!add_edges(graph, graph.line_edges, graph.lines[i].first_edge, graph.lines[i].last_edge,
+                     line_costs_, *line_loss_, block, problem))
+        continue;
       problem.SetManifold(block, &line_manifold_);
       ordering_->AddElementToGroup(block, 0);
       if (!graph.lines[i].axis) continue;

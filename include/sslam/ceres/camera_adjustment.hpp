@@ -3,13 +3,7 @@
 // with the camera as one more unknown; the map itself stays as it is.
 #pragma once
 
-#include <ceres/loss_function.h>
-#include <ceres/ordered_groups.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -19,6 +13,7 @@
 #include "sslam/ceres/camera_estimate.hpp"
 #include "sslam/ceres/lens_costs.hpp"
 #include "sslam/ceres/marginal_covariance.hpp"
+#include "sslam/ceres/schur_problem.hpp"
 #include "sslam/map/bundle_window.hpp"
 
 namespace sslam {
@@ -83,11 +78,7 @@ inline CameraEstimate CameraAdjustment::estimate(const BundleGraph<double>& grap
                                                  const Camera<double>& camera) {
   CameraEstimate out;
   out.camera = camera;
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
+  ceres::Problem problem(borrowing_problem());
   ceres::CauchyLoss point_loss(options.losses.point), line_loss(options.losses.line);
   LensPriorCost prior(options.prior.sigma(camera));
   blocks_.load(graph);
@@ -122,30 +113,20 @@ inline CameraEstimate CameraAdjustment::estimate(const BundleGraph<double>& grap
 }
 
 inline ceres::Solver::Options CameraAdjustment::solver_options() const {
-  ceres::Solver::Options o;
-  o.linear_solver_type = ceres::SPARSE_SCHUR;
-  o.linear_solver_ordering = ordering_;
+  ceres::Solver::Options o = schur_options(true, ordering_);
   o.max_num_iterations = options.max_iterations;
   o.function_tolerance = options.function_tolerance;
-  o.num_threads = 1;
-  o.logging_type = ceres::SILENT;
   return o;
 }
 
-// An observation that cannot be evaluated at the start would fail the whole problem: it is left out.
 template <class Cost, class Edge, class Observed>
 bool CameraAdjustment::add(std::deque<Cost>& costs, const Camera<double>& camera, const Edge& edge,
                            const Observed& raw, ceres::LossFunction& loss, double* landmark,
                            ceres::Problem& problem) {
   if (!takes_part(edge.view)) return false;
   double* const pose = blocks_.poses[static_cast<std::size_t>(edge.view)].data();
-  double residual[2];
-  const double* const at[] = {lens_.data(), pose, landmark};
   costs.emplace_back(camera, raw, edge.inverse_sigma);
-  if (!costs.back().Evaluate(at, residual, nullptr) || !std::isfinite(residual[0]) ||
-      !std::isfinite(residual[1]))
-    return false;
-  problem.AddResidualBlock(&costs.back(), &loss, lens_.data(), pose, landmark);
+  if (!add_observation(costs.back(), loss, problem, lens_.data(), pose, landmark)) return false;
   ++observations_;
   return true;
 }
