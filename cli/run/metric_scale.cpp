@@ -148,6 +148,48 @@ void scale_by_distance(const ScaleWish& wish, const RunOutcome& outcome, const S
   scale.factor = wish.metres / apart;
 }
 
+// The scale of the outcome's map, which is left as it is. Where none is found, `problem` says why.
+ScaleRecord find_scale(const ScaleWish& wish, const RunOutcome& outcome, const ScaleInput& input) {
+  ScaleRecord scale;
+  switch (wish.method) {
+    case ScaleMethod::kNone:
+      if (input.metric_map) {
+        scale.method = "map";
+        scale.metric = true;
+      }
+      return scale;
+    case ScaleMethod::kDepth:
+      scale.method = "depth";
+      scale_by_depth(outcome, input, scale);
+      break;
+    case ScaleMethod::kHeight:
+      scale.method = "height";
+      scale_by_height(wish.metres, outcome, scale);
+      break;
+    case ScaleMethod::kKnown:
+      scale.method = "known";
+      scale_by_distance(wish, outcome, input, scale);
+      break;
+  }
+  if (scale.problem.empty() && !(scale.factor > 0 && std::isfinite(scale.factor)))
+    scale.problem = "the map has no extent to measure";
+  if (scale.problem.empty())
+    scale.metric = true;
+  else
+    scale.factor = 1;
+  return scale;
+}
+
+// Brings poses and map to metres.
+void apply_scale(const ScaleRecord& scale, RunOutcome& outcome) {
+  if (scale.factor == 1) return;
+  rescale(outcome.map, scale.factor);
+  for (io::Trajectory* poses : {&outcome.trajectory, &outcome.keyframes})
+    for (io::StampedPose& pose : *poses) pose.world_from_cam = rescaled(pose.world_from_cam, scale.factor);
+  for (FrameRecord& frame : outcome.frames)
+    frame.cam_from_world = rescaled(frame.cam_from_world, scale.factor);
+}
+
 }  // namespace
 
 ScaleWish parse_scale(const std::string& text) {
@@ -189,44 +231,12 @@ void check_scale(const ScaleWish& wish, const io::Dataset& dataset, double depth
                   std::to_string(dataset.frames.back().index));
 }
 
-ScaleRecord find_scale(const ScaleWish& wish, const RunOutcome& outcome, const ScaleInput& input) {
-  ScaleRecord scale;
-  switch (wish.method) {
-    case ScaleMethod::kNone:
-      if (input.metric_map) {
-        scale.method = "map";
-        scale.metric = true;
-      }
-      return scale;
-    case ScaleMethod::kDepth:
-      scale.method = "depth";
-      scale_by_depth(outcome, input, scale);
-      break;
-    case ScaleMethod::kHeight:
-      scale.method = "height";
-      scale_by_height(wish.metres, outcome, scale);
-      break;
-    case ScaleMethod::kKnown:
-      scale.method = "known";
-      scale_by_distance(wish, outcome, input, scale);
-      break;
-  }
-  if (scale.problem.empty() && !(scale.factor > 0 && std::isfinite(scale.factor)))
-    scale.problem = "the map has no extent to measure";
-  if (scale.problem.empty())
-    scale.metric = true;
-  else
-    scale.factor = 1;
-  return scale;
-}
-
-void apply_scale(const ScaleRecord& scale, RunOutcome& outcome) {
-  if (scale.factor == 1) return;
-  rescale(outcome.map, scale.factor);
-  for (io::Trajectory* poses : {&outcome.trajectory, &outcome.keyframes})
-    for (io::StampedPose& pose : *poses) pose.world_from_cam = rescaled(pose.world_from_cam, scale.factor);
-  for (FrameRecord& frame : outcome.frames)
-    frame.cam_from_world = rescaled(frame.cam_from_world, scale.factor);
+void bring_to_metres(const ScaleWish& wish, const ScaleInput& input, RunOutcome& outcome) {
+  outcome.scale = find_scale(wish, outcome, input);
+  apply_scale(outcome.scale, outcome);
+  if (!outcome.scale.problem.empty() && !outcome.trajectory.empty())
+    outcome.warnings.push_back("--scale " + outcome.scale.method + ": " + outcome.scale.problem +
+                               "; the results stay in the map's own unit");
 }
 
 }  // namespace sslam::cli

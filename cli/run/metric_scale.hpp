@@ -37,11 +37,8 @@ struct ScaleInput {
   bool metric_map = false;               // the map that the run went on in was in metres
 };
 
-// The scale of the outcome's map, which is left as it is. Where none is found, `problem` says why.
-[[nodiscard]] ScaleRecord find_scale(const ScaleWish& wish, const RunOutcome& outcome,
-                                     const ScaleInput& input);
-
-// Brings poses and map to metres.
-void apply_scale(const ScaleRecord& scale, RunOutcome& outcome);
+// Brings poses and map to metres, where it is asked for and the outcome can tell. `outcome.scale` says how;
+// where it cannot, there is a warning, and all stays in the map's own unit.
+void bring_to_metres(const ScaleWish& wish, const ScaleInput& input, RunOutcome& outcome);
 
 }  // namespace sslam::cli

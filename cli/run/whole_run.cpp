@@ -27,28 +27,6 @@ std::string last_reason_of(const RunOutcome& outcome) {
   return outcome.frames.empty() ? "no image could be read" : name(outcome.frames.back().reason);
 }
 
-// A source of normals that gives nothing, view after view, is wrong as a whole: its manifest, or its scale.
-void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
-  constexpr std::size_t kEnough = 10;  // frames, to tell a fault from a view of clutter
-  std::size_t asked = 0;
-  bool any = false;
-  for (const FrameRecord& frame : outcome.frames) {
-    if (frame.normal_need == NormalNeed::kNotNeeded) continue;
-    ++asked;
-    any = any || frame.normal_status == NormalStatus::kOk;
-  }
-  if (any || asked < kEnough) return;
-  outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(asked) +
-                             " frames has normals that are of use; sslam normals shows what a network sees");
-}
-
-void note_stream(const LiveSource& source, RunOutcome& outcome) {
-  const StreamFigures figures = source.figures();
-  outcome.frames_dropped = figures.dropped;
-  outcome.stream_losses = figures.lost;
-  if (!figures.end.empty()) outcome.warnings.push_back(figures.end);
-}
-
 // What it has to say is a warning of the run.
 void add_dense(RunPass& pass) {
   RunOutcome& outcome = pass.recorder.outcome;
@@ -73,15 +51,6 @@ void keep_camera(const CameraChoice& camera, Recording& recording) {
   recording.keep_camera(file);
 }
 
-// In metres, where the settings ask for it and the map can tell.
-void bring_to_metres(const ScaleWish& wish, const ScaleInput& input, RunOutcome& outcome) {
-  outcome.scale = find_scale(wish, outcome, input);
-  apply_scale(outcome.scale, outcome);
-  if (!outcome.scale.problem.empty() && !outcome.trajectory.empty())
-    outcome.warnings.push_back("--scale " + outcome.scale.method + ": " + outcome.scale.problem +
-                               "; the results stay in the map's own unit");
-}
-
 }  // namespace
 
 void WholeRun::open() {
@@ -93,19 +62,15 @@ void WholeRun::open() {
   checkpoints_ = checkpoint_clock(settings_);
   goes_on_ = !settings_.map.empty();
   if (goes_on_ && !settings_.resumed) known_ = load_run_map(settings_.map);
-  open_images();
-  print_notes(camera_.notes);
-  print_warnings(camera_.warnings);
-  check_normals(settings_, dataset_, camera_.depth_factor);
-  check_scale(scale_, dataset_, camera_.depth_factor);
-  check_wide(settings_, camera_);
-  if (camera_.wide) view_.emplace(*camera_.wide, camera_.view_fov);
-  if (!settings_.mask.empty())
-    masks_ = MaskSource(settings_.mask, {camera_.camera.width, camera_.camera.height});
-  print_warnings(masks_.warnings());
+  if (stream_named(settings_.dataset)) interrupt_.emplace();  // it may never send anything
+  input_.open(settings_);
+  check_normals(settings_, input_.dataset, input_.camera.depth_factor);
+  check_scale(scale_, input_.dataset, input_.camera.depth_factor);
+  input_.choose_pixels(settings_);
   wanted_ = system_settings();
-  head_ = begun_checkpoint(settings_.words, dataset_, camera_.camera);
-  if (settings_.resumed) check_resumed(*settings_.resumed, dataset_, camera_.camera, settings_.out);
+  head_ = begun_checkpoint(settings_.words, input_.dataset, input_.camera.camera);
+  if (settings_.resumed)
+    check_resumed(*settings_.resumed, input_.dataset, input_.camera.camera, settings_.out);
   open_output();
   if (!interrupt_) interrupt_.emplace();
 }
@@ -117,39 +82,24 @@ void WholeRun::choose_normals_source(const Preset& preset) {
   if (!chosen.note.empty()) print_note(chosen.note);
 }
 
-void WholeRun::open_images() {
-  const std::optional<StreamName> stream = stream_named(settings_.dataset);
-  if (!stream) {
-    dataset_ = open_run_dataset(settings_);
-    camera_ = choose_run_camera(settings_, dataset_);
-    return;
-  }
-  interrupt_.emplace();  // it may never send anything
-  source_.emplace(*stream, StreamOptions{settings_.live, settings_.retry, settings_.frame_rate,
-                                         settings_.slice, size_of_stream_camera(settings_)});
-  const cv::Size size = source_->wait_for_first();
-  dataset_ = source_->dataset();
-  settings_.dataset = dataset_.root.string();
-  camera_ = choose_stream_camera(settings_, dataset_, size);
-}
-
 void WholeRun::open_output() {
   io::prepare_output_folder(settings_.out);
   lock_.emplace(FolderLock::demand(settings_.out));
   if (!settings_.resumed && has_checkpoint(settings_.out))
     print_note(settings_.out + ": holds the checkpoint of a run that stopped, which sslam run --resume " +
                settings_.out + " would continue; this run replaces it");
-  if (settings_.foxglove) stream_.emplace(*settings_.foxglove, dataset_);
+  if (settings_.foxglove) stream_.emplace(*settings_.foxglove, input_.dataset);
   if (settings_.record.empty()) return;
   recording_.emplace(settings_.record);
-  keep_camera(camera_, *recording_);
+  keep_camera(input_.camera, *recording_);
 }
 
 void WholeRun::track() {
-  calibration_.emplace(dataset_, masks_, camera_, settings_.calibration == CalibrationMode::kFind);
+  calibration_.emplace(input_.dataset, input_.masks, input_.camera,
+                       settings_.calibration == CalibrationMode::kFind);
   const bool finds = !settings_.resumed && repeats() && calibration_->is_guess();
-  if (settings_.resumed) calibration_->go_on(*settings_.resumed, camera_);
-  if (finds) calibration_->find(std::move(wanted_), camera_, found_at());
+  if (settings_.resumed) calibration_->go_on(*settings_.resumed, input_.camera);
+  if (finds) calibration_->find(std::move(wanted_), input_.camera, found_at());
   if (settings_.resumed || finds) wanted_ = system_settings();
   begin_pass();
   if (examines() && !outcome().interrupted) examine_camera();
@@ -158,15 +108,15 @@ void WholeRun::track() {
 
 void WholeRun::begin_pass() {
   pass_.reset();  // two of them would write the same video
-  calibration_->keep(camera_, head_);
-  pass_ = std::make_unique<RunPass>(settings_, dataset_, camera_, std::move(wanted_), head_);
+  calibration_->keep(input_.camera, head_);
+  pass_ = std::make_unique<RunPass>(settings_, input_.dataset, input_.camera, std::move(wanted_), head_);
   if (stream_) {
     stream_->begin(pass_->context.working_camera, pass_->recorder.colours);
     pass_->system.add_observer(*stream_);
   }
   if (!known_.empty()) pass_->go_on_in(std::exchange(known_, {}));
   if (const auto resumed = std::exchange(settings_.resumed, nullptr)) pass_->go_on_from(std::move(*resumed));
-  pass_->track(dataset_, stream_options(), checkpoints_);
+  pass_->track(input_.dataset, input_.frames(recording_ ? &*recording_ : nullptr), checkpoints_);
 }
 
 void WholeRun::track_again() {
@@ -179,12 +129,12 @@ void WholeRun::examine_camera() {
   const bool second = calibration_->replaced() && !calibration_->is_guess();  // and the last
   if (!second && repeats() && !calibration_->is_guess() && calibration_->contradicts()) {
     const std::size_t tracked = outcome().trajectory.size();
-    const CameraChoice given = camera_;
+    const CameraChoice given = input_.camera;
     pass_.reset();  // its memory serves the search
-    calibration_->find(system_settings(), camera_, found_at());
+    calibration_->find(system_settings(), input_.camera, found_at());
     track_again();
     if (!outcome().interrupted && calibration_->refuted(tracked, outcome().trajectory.size())) {
-      camera_ = given;
+      input_.camera = given;
       track_again();
     } else {
       calibration_->examine(pass_->system);
@@ -198,11 +148,11 @@ void WholeRun::examine_camera() {
 void WholeRun::follow_up() {
   RunOutcome& outcome = this->outcome();
   const std::size_t told = outcome.warnings.size();  // to those who looked on while frames were tracked
-  if (source_) note_stream(*source_, outcome);
-  warn_of_useless_normals(settings_.normals, outcome);
-  bring_to_metres(
-      scale_, {dataset_, pass_->context.working_camera, camera_.depth_factor, is_metric_map(settings_.map)},
-      outcome);
+  input_.report(settings_.normals, outcome);
+  bring_to_metres(scale_,
+                  {input_.dataset, pass_->context.working_camera, input_.camera.depth_factor,
+                   is_metric_map(settings_.map)},
+                  outcome);
   if (stream_) stream_->finish(outcome);
   if (settings_.dense) add_dense(*pass_);
   const std::vector<std::string>& of_camera = calibration_->warnings();
@@ -248,8 +198,8 @@ Settings WholeRun::system_settings() const {
   Settings wanted;
   wanted.preset = settings_.preset;
   wanted.parameters = parameters_;
-  wanted.camera = camera_.camera;
-  wanted.depth_factor = camera_.depth_factor;
+  wanted.camera = input_.camera.camera;
+  wanted.depth_factor = input_.camera.depth_factor;
   wanted.normals = choose_normals(settings_.normals);
   wanted.seed = settings_.seed;
   wanted.live = settings_.live;
@@ -259,18 +209,13 @@ Settings WholeRun::system_settings() const {
   return wanted;
 }
 
-FrameStreamOptions WholeRun::stream_options() {
-  return {0, masks_, view_ ? &*view_ : nullptr, source_ ? &*source_ : nullptr,
-          recording_ ? &*recording_ : nullptr};
-}
-
 // A map that is gone on in was made with its own camera; a view of a wide lens has no lens of its own.
 bool WholeRun::examines() const {
-  return settings_.calibration != CalibrationMode::kFixed && !goes_on_ && !view_;
+  return settings_.calibration != CalibrationMode::kFixed && !goes_on_ && !input_.view;
 }
 
 bool WholeRun::repeats() const {
-  return examines() && !settings_.live && !settings_.view && !source_ && !recording_;
+  return examines() && !settings_.live && !settings_.view && !input_.source && !recording_;
 }
 
 std::string WholeRun::found_at() const {

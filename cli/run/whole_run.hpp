@@ -9,19 +9,16 @@
 #include <vector>
 
 #include "cli/foxglove/live_stream.hpp"
-#include "cli/input/camera_choice.hpp"
-#include "cli/input/mask_source.hpp"
 #include "cli/results/folder_lock.hpp"
 #include "cli/run.hpp"
 #include "cli/run/checkpoint.hpp"
 #include "cli/run/checkpoint_clock.hpp"
 #include "cli/run/metric_scale.hpp"
+#include "cli/run/run_input.hpp"
 #include "cli/run/run_pass.hpp"
 #include "cli/run/self_calibration.hpp"
 #include "cli/shell/interrupt.hpp"
-#include "cli/stream/live_source.hpp"
 #include "cli/stream/recording.hpp"
-#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::cli {
 
@@ -38,10 +35,8 @@ class WholeRun {
 
  private:
   void choose_normals_source(const Preset& preset);
-  void open_images();
   void open_output();
   [[nodiscard]] Settings system_settings() const;
-  [[nodiscard]] FrameStreamOptions stream_options();
   void begin_pass();
   void track_again();
   void examine_camera();
@@ -62,11 +57,7 @@ class WholeRun {
   bool goes_on_ = false;
   std::optional<Recording> recording_;
   std::optional<Interrupt> interrupt_;  // until all is written
-  std::optional<LiveSource> source_;
-  io::Dataset dataset_;
-  CameraChoice camera_;
-  std::optional<WideView> view_;
-  MaskSource masks_;
+  RunInput input_;
   Settings wanted_;  // of the pass that is to begin
   CheckpointHead head_;
   CheckpointClock checkpoints_{0, 0};
