@@ -50,7 +50,7 @@ class Tracking(unittest.TestCase):
             np.testing.assert_allclose(written.keyframes().poses, tracker.keyframes().poses, atol=1e-12)
 
     def test_the_shipped_network_gives_the_bits_of_the_command_line(self):
-        from sslam._system import shipped_network
+        from sslam._settings import shipped_network
 
         if shipped_network() is None:
             self.skipTest("skipped: no shipped network")

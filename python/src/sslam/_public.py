@@ -1,19 +1,14 @@
 """All public names of `import sslam`."""
 
+from ._callbacks import EVENTS
 from ._data import Dataset, evaluate, open_dataset, read_trajectory, write_trajectory
 from ._errors import Error, FinishedError, SettingsError, SslamWarning
-from ._kernels import (
-    bundle_adjust,
-    manhattan_rotation,
-    refine_pose,
-    relative_pose,
-    translation_from_rotation,
-    triangulate_lines,
-    triangulate_points,
-)
+from ._kernels import manhattan_rotation, refine_pose, relative_pose, translation_from_rotation
 from ._map import Map, load_map
+from ._map_kernels import bundle_adjust, triangulate_lines, triangulate_points
+from ._settings import parameters, presets
 from ._sslam import Camera, Evaluation, Reason, RelativeError, Result, State, Statistics, Status, __version__
-from ._system import EVENTS, System, parameters, presets
+from ._system import System
 from ._types import (
     BundleAdjustment,
     Frame,

@@ -2,67 +2,20 @@
 
 from __future__ import annotations
 
-import importlib.resources
-import os
-import warnings
-from typing import Any, Callable, Dict, List, Mapping, Optional, TypeVar, Union
+from typing import Any, Callable, List, Mapping, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _check, _sslam
-from ._errors import SettingsError, SslamWarning
+from ._callbacks import Callback, Callbacks, warn
+from ._errors import SettingsError
+from ._settings import Path, as_camera, parameter_values, presets, shipped_network, wide_lens
 from ._sslam import Camera, Result
-from ._types import Floats, Latest, Lines, Parameter, Planes, Preset, Trajectory
+from ._types import Floats, Latest, Lines, Parameter, Planes, Trajectory
 from ._wide_lens import WideLens
 
-Path = Union[str, "os.PathLike[str]"]
 NormalsCallback = Callable[[NDArray[np.uint8]], Optional[NDArray[Any]]]
-Callback = TypeVar("Callback", bound=Callable[[Any], Any])
-
-EVENTS = ("frame_tracked", "keyframe_made", "loop_closed", "maps_joined", "map_changed", "warning")
-
-
-def shipped_network() -> Optional[str]:
-    """The normal network that comes with sslam; None where it is not installed."""
-    models = importlib.resources.files("sslam") / "models"
-    manifest, model = models / "planar_normals.json", models / "planar_normals.onnx"
-    return str(manifest) if manifest.is_file() and model.is_file() else None
-
-
-def presets() -> List[Preset]:
-    return [Preset(*values) for values in _sslam.presets()]
-
-
-def parameters(preset: str = "structure") -> List[Parameter]:
-    """Every parameter of a preset, with its default."""
-    return [Parameter(*values) for values in _sslam.preset_parameters(preset)]
-
-
-def as_camera(name: str, camera: Union[Camera, Path]) -> Camera:
-    if isinstance(camera, Camera):
-        return camera
-    if not isinstance(camera, (str, bytes, os.PathLike)):
-        raise TypeError(f"{name}: expected an sslam.Camera or the path of a camera file, not {type(camera).__name__}")
-    return Camera.from_file(_check.path(name, camera))
-
-
-def _wide_lens(camera: Union[Camera, WideLens, Path]) -> Optional[WideLens]:
-    """None: a pinhole sees what the camera sees."""
-    if isinstance(camera, (str, bytes, os.PathLike)) and _sslam.is_wide(_check.path("camera", camera)):
-        return WideLens(camera)
-    return camera if isinstance(camera, WideLens) else None
-
-
-def _parameter_values(given: Optional[Mapping[str, float]], words: Dict[str, float]) -> Dict[str, float]:
-    for name in words:
-        if "__" not in name:
-            raise TypeError(f"System: no argument {name}; parameters of stages have '__' for each dot of their names")
-    if given is not None and not isinstance(given, Mapping):
-        raise TypeError(f"parameters: expected a dict of numbers, not {type(given).__name__}")
-    values = dict(given or {})
-    values.update({name.replace("__", "."): value for name, value in words.items()})
-    return {str(name): _check.real(str(name), value) for name, value in values.items()}
 
 
 class System:
@@ -107,7 +60,7 @@ class System:
         normals_sigma_deg: float = 5.0,
         **words: float,
     ) -> None:
-        values = _parameter_values(parameters, words)
+        values = parameter_values(parameters, words)
         if not isinstance(preset, str):
             raise TypeError(f"preset: expected its name, not {type(preset).__name__}")
         if colours not in ("bgr", "rgb"):
@@ -116,9 +69,9 @@ class System:
         if not 0 <= sigma < 90:
             raise ValueError(f"normals_sigma_deg: {sigma:g} is out of range: 0 to 90")
         self._rgb = colours == "rgb"
-        self._callbacks: Dict[str, List[Callable[[Any], Any]]] = {event: [] for event in EVENTS}
+        self._callbacks = Callbacks()
         self._normals_of: Optional[NormalsCallback] = None
-        self._lens = _wide_lens(camera)
+        self._lens = wide_lens(camera)
         self._tracking = _sslam.Tracking(
             as_camera("camera", camera) if self._lens is None else self._lens.camera,
             preset,
@@ -147,7 +100,7 @@ class System:
         if normals is not None:
             raise SettingsError("normals: the network that comes with sslam is not installed; name one with onnx:FILE")
         if wanted:
-            self._warn("the normal network that comes with sslam is not installed: the axes come from lines alone", 4)
+            warn("the normal network that comes with sslam is not installed: the axes come from lines alone", 4)
         return "none"
 
     def track(
@@ -199,7 +152,7 @@ class System:
         if normals is not None:
             normals = self._normals_array(normals, pixels)
         result = self._tracking.track(pixels, when, depth, mask, normals, name, self._rgb)
-        self._tell(result)
+        self._callbacks.tell(result)
         return result
 
     @staticmethod
@@ -212,42 +165,14 @@ class System:
             raise ValueError(f"normals: have shape {found.shape}; expected the shape of the image, {image.shape[:2]}")
         return found
 
-    def _tell(self, result: Result) -> None:
-        told = self._callbacks
-        for line in result.warnings:
-            if not told["warning"]:
-                self._warn(line, 4)
-            for callback in tuple(told["warning"]):
-                callback(line)
-        happened = (True, result.keyframe, result.loop_closed, result.maps_joined, result.map_changed)
-        for event, yes in zip(EVENTS, happened):
-            if yes:
-                for callback in tuple(told[event]):
-                    callback(result)
-
-    @staticmethod
-    def _warn(line: str, level: int) -> None:
-        warnings.warn(line, SslamWarning, stacklevel=level)
-
     def on(self, event: str, callback: Callback) -> Callback:
         """Calls callback(result) after each frame with this event of sslam.EVENTS. For "warning" it is callback(line);
         without such a callback, warnings go to Python's `warnings`."""
-        self._of_event(event)
-        if not callable(callback):
-            raise TypeError(f"callback: expected a function, not {type(callback).__name__}")
-        self._callbacks[event].append(callback)
-        return callback
+        return self._callbacks.add(event, callback)
 
     def off(self, event: str, callback: Callable[[Any], Any]) -> None:
         """Removes a callback of on(event, callback)."""
-        if callback not in self._of_event(event):
-            raise ValueError(f"callback: {callback!r} is not called at {event}")
-        self._callbacks[event].remove(callback)
-
-    def _of_event(self, event: str) -> List[Callable[[Any], Any]]:
-        if event not in self._callbacks:
-            raise ValueError(f"event: {event!r} is not known; use one of {', '.join(EVENTS)}")
-        return self._callbacks[event]
+        self._callbacks.remove(event, callback)
 
     def finish(self) -> bool:
         """Ends the input: waits for mapping and runs the final pass. True if that closed a loop. A second call does
