@@ -25,3 +25,11 @@ def frames():
 
 def system(**settings):
     return sslam.System(ROOM / "camera.yaml", **{"normals": "none", **settings})
+
+
+def track_all(tracker, turn=lambda image: image, count=None):
+    return [tracker.track(turn(frame.image), frame.stamp) for frame in frames()[:count]]
+
+
+def poses_of(results):
+    return [None if r.pose is None else r.pose.tobytes() for r in results]
