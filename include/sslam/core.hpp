@@ -185,6 +185,7 @@
 #include "sslam/track/loops/axis_names.hpp"
 #include "sslam/track/loops/loop_closing.hpp"
 #include "sslam/track/loops/loop_detection.hpp"
+#include "sslam/track/loops/loop_evidence.hpp"
 #include "sslam/track/loops/map_join.hpp"
 #include "sslam/track/loops/no_loop_closing.hpp"
 #include "sslam/track/loops/place_confirmation.hpp"

@@ -83,13 +83,14 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     if (!world_.map.empty()) trial.add_lost(Frame<S>(), 0);
   }
 
-  // Takes what mapping elsewhere has still to say, and waits for it; true if that closed a loop. Of several
-  // worlds, the map and the trajectory are then those of the one in which most frames were tracked. The next
-  // frame, if there is one, goes on from there.
+  // Takes what mapping elsewhere has still to say, and waits for it; true if a loop was closed by that, or by
+  // the final pass. Of several worlds, the map and the trajectory are then those of the one in which most
+  // frames were tracked. The next frame, if there is one, goes on from there.
   bool finish() {
-    const bool loop_closed = follow_map(upkeep.finish(world_.map));
+    bool loop_closed = follow_map(upkeep.finish(world_.map));
     World<S>* largest = atlas.largest();
     if (largest != nullptr && Atlas<S>::smaller(world_, *largest)) Worlds::change_places(*largest);
+    if (keep_frames && !localise_only) loop_closed = Worlds::close_missed_loops() || loop_closed;
     final_pass.run(world_.map, fallback, refinement, relocalisation, world_.log);
     return loop_closed;
   }

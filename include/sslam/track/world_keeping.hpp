@@ -53,6 +53,30 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     return change->loop_closed;
   }
 
+  // After the last frame: places that were met once, and left before they were seen a second time.
+  bool close_missed_loops() {
+    if (world_.map.empty()) return false;
+    const KeyframeId fixed = world_.cursor.reference();
+    TrackedFrame<S>& frame = frames_.current();
+    SE3<S> from_fixed = frame.cam_from_world * world_.map.pose(fixed).inverse();
+    bool closed = false;
+    S scale = 1;
+    for (const KeyframeId id : loops.missed(world_.map)) {
+      const LoopAnswer<S> answer = loops.close_on_trial(world_.map, id);
+      closed = closed || answer.closed;
+      if (answer.new_from_old.empty()) continue;
+      world_.log.follow([&](KeyframeId k) { return answer.scale_at(k); });
+      scale *= answer.scale_at(fixed);
+    }
+    if (!closed) return false;
+    from_fixed.translation *= scale;
+    frame.cam_from_world = from_fixed * world_.map.pose(fixed);
+    frame.forget_matches();
+    frames_.change_world();
+    motion.move_to(frame.cam_from_world, scale);
+    return true;
+  }
+
   // The map of this world refutes it, or the camera has left it.
   void give_up_world(bool lay_aside) {
     if (lay_aside) {

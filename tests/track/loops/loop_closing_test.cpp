@@ -141,6 +141,29 @@ LoopAnswer<double> close(LoopClosing<double>& loops, Map<double>& map) {
   return loops.close(map, kKeyframes - 1);
 }
 
+// From now on the last keyframes see nothing of the beginning but one thing, in a third of the image.
+void leave_one_thing(Map<double>& map) {
+  Random random(11);
+  const Keyframe<double>& last = map.keyframes.back();
+  const double left = last.frame.width / 3.0, right = 2 * left;
+  for (auto& point : map.points) {
+    if (!point.alive || point.observations.front().keyframe < kKeyframes / 2) continue;
+    const Vec3<double> in_camera = last.cam_from_world * point.position;
+    const double x = in_camera.z() > 0 ? last.frame.pinhole.project(in_camera).x() : 0;
+    if (x > left && x < right) continue;
+    for (auto& word : point.descriptor.words) word = random.next();
+    for (const Observation& o : point.observations)
+      map.keyframes[map.index(o.keyframe)].frame.points[map.index(o.feature)].descriptor = point.descriptor;
+  }
+  map.collect_free_ids();  // looks have changed
+}
+
+int closed_on_trial(LoopClosing<double>& loops, Map<double>& map) {
+  int closed = 0;
+  for (const KeyframeId id : loops.missed(map)) closed += loops.close_on_trial(map, id).closed;
+  return closed;
+}
+
 }  // namespace
 
 TEST_CASE("A place that is met again takes the drift out of the map") {
@@ -208,4 +231,34 @@ TEST_CASE("A turn of the world that structure rules out closes no loop") {
   LoopClosing<double> loops;
   loops.detection.options.max_turn = radians(0.1);
   CHECK_FALSE(close(loops, ring.map).closed);
+}
+
+TEST_CASE("A place that was met once closes its loop after the last frame") {
+  Ring ring;
+  const double before = error(ring);
+  LoopClosing<double> loops;
+  loops.detection.confirmation.options.reach = 1;  // no place is expected where the map has it
+  REQUIRE_FALSE(loops.close(ring.map, kKeyframes - 2).closed);
+  CHECK(closed_on_trial(loops, ring.map) > 0);
+  INFO(before << " m before, " << error(ring) << " m after");
+  CHECK(error(ring) < 0.2 * before);
+  CHECK(covisible(ring.map, kKeyframes - 1, 3));
+}
+
+TEST_CASE("One thing that stands at two places closes no loop, even on trial") {
+  Ring ring;
+  leave_one_thing(ring.map);
+  const auto before = state_of(ring.map);
+  LoopClosing<double> loops;
+  loops.detection.confirmation.options.reach = 1;  // no place is expected where the map has it
+  REQUIRE_FALSE(loops.missed(ring.map).empty());
+  CHECK(closed_on_trial(loops, ring.map) == 0);
+  CHECK(same_bits(state_of(ring.map), before));
+}
+
+TEST_CASE("No loop is tried where no trial is allowed") {
+  Ring ring;
+  LoopClosing<double> loops;
+  loops.options.trials = 0;
+  CHECK(loops.missed(ring.map).empty());
 }

@@ -88,6 +88,10 @@ concept PlaceFinder = std::semiregular<T> &&
 template <class T, class S>
 concept LoopStage = requires(T stage, const T idle, Map<S>& map, const Loop<S>& loop) {
   { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
+  // After the last frame: keyframes that show a place without being connected with it, and an answer for
+  // each.
+  { stage.missed(std::as_const(map)) } -> std::same_as<std::vector<KeyframeId>>;
+  { stage.close_on_trial(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
   { stage.merge(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
   { idle.finder() } -> PlaceFinder<S>;  // of its own, for use while the stage is at work
   stage.forget();                       // the map is another one

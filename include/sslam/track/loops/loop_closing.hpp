@@ -4,7 +4,11 @@
 // ORB-SLAM, T-RO 2015, section VII).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +18,7 @@
 #include "sslam/solver/bundle/pose_graph_solver.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/loops/loop_detection.hpp"
+#include "sslam/track/loops/loop_evidence.hpp"
 #include "sslam/track/loops/map_join.hpp"
 #include "sslam/track/mapping/fusion.hpp"
 
@@ -23,6 +28,7 @@ template <Scalar S>
 struct LoopClosingOptions {
   std::size_t place_keyframes = 10;  // around the place, whose landmarks are looked for again
   S in_place = S(0.8);  // share of the place's landmarks that are where the map has them: nothing has drifted
+  int trials = 10;      // of places that were met once, after the last frame; each adjusts the map twice
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -30,6 +36,8 @@ struct LoopClosingOptions {
           "around a place, whose landmarks are looked for again");
     visit("in_place", self.in_place, Unit::kShare, 0, 1,
           "of a place's landmarks, that are where the map has them: nothing has drifted");
+    visit("trials", self.trials, Unit::kCount, 0, 10000,
+          "of loops by a single sighting, after the last frame; 0: none is tried");
   }
 };
 static_assert(Described<LoopClosingOptions<double>>);
@@ -64,6 +72,14 @@ class LoopClosing {
   // The keyframe has just been taken into the map.
   LoopAnswer<S> close(Map<S>& map, KeyframeId id);
 
+  // After the last frame: keyframes that show a place which they are not connected with, at most
+  // `options.trials`; those that share most with it first.
+  [[nodiscard]] std::vector<KeyframeId> missed(const Map<S>& map);
+
+  // As close(), but where a second sighting lacks, the loop is closed on trial. It stands if keyframes around
+  // then share points with the place beside those that it was closed by, as many as a second sighting asks.
+  LoopAnswer<S> close_on_trial(Map<S>& map, KeyframeId id);
+
   [[nodiscard]] LoopDetection<S> finder() const { return detection; }
 
   // `other` becomes part of the map, as its keyframe `id`, which met the map there, says.
@@ -73,6 +89,29 @@ class LoopClosing {
   void forget() noexcept { met_.reset(); }
 
  private:
+  enum class Drift : std::uint8_t { kInPlace, kSmall, kLarge };
+
+  // How far the map has the place from where the keyframe sees it. A small drift needs no second sighting.
+  [[nodiscard]] Drift drift(const Map<S>& map, KeyframeId id, const Loop<S>& loop) const {
+    const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
+    if (share_in_place(map, keyframe, loop, fusion.options.point_radius) >= options.in_place)
+      return Drift::kInPlace;
+    const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
+    return share_in_place(map, keyframe, loop, nearby.reach) < nearby.min_share ? Drift::kLarge
+                                                                                : Drift::kSmall;
+  }
+
+  LoopAnswer<S> close(Map<S>& map, KeyframeId id, const Loop<S>& loop, bool drifted) {
+    if (drifted && !bend(map, id, loop)) return {};
+    join(map, id, loop);
+    if (!drifted) {
+      adjustment.optimise(map, id);
+      return {true, {}};
+    }
+    adjustment.optimise_all(map);
+    return {true, new_from_old_};
+  }
+
   // Of the landmarks of the place that the keyframe sees, how many lie within `reach`, in the feature's
   // sigma, of where the map has them.
   [[nodiscard]] S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& loop,
@@ -107,8 +146,7 @@ class LoopClosing {
 
   // What the keyframe and its neighbours see of the place's landmarks becomes one with theirs.
   void join(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
-    std::vector<KeyframeId> here(1, id);
-    for (const Neighbour& n : map.keyframes[map.index(id)].neighbours) here.push_back(n.keyframe);
+    const std::vector<KeyframeId> here = with_neighbours(map, id);
     place_.gather_around(map, loop.place, options.place_keyframes);
     take_over(
         map, id, loop.point_landmarks, &Keyframe<S>::point_landmarks, map.points,
@@ -122,13 +160,44 @@ class LoopClosing {
     for (const KeyframeId k : here) map.update_covisibility(k);
   }
 
+  // By what these keyframes show the place and what is around it.
+  [[nodiscard]] std::vector<Sighting> sightings(const Map<S>& map, std::span<const KeyframeId> keyframes,
+                                                KeyframeId place) {
+    around_.gather_around(map, place, options.place_keyframes);
+    const auto& near = around_.keyframes;
+    std::vector<Sighting> all;
+    for (const KeyframeId k : keyframes) {
+      const std::optional<Loop<S>> loop = detection.find(map, k, map);
+      if (!loop || std::find(near.begin(), near.end(), loop->place) == near.end()) continue;
+      Sighting& sighting = all.emplace_back(Sighting{k, {}});
+      for (std::size_t i = 0; i < loop->point_landmarks.size(); ++i)
+        if (loop->point_landmarks[i] != kNone) sighting.features.push_back(i);
+    }
+    return all;
+  }
+
+  // Both sides look for what the other one sees, where the adjusted map has it.
+  void match_both_ways(Map<S>& map, std::span<const KeyframeId> here, KeyframeId id) {
+    around_.gather_around(map, id, here.size());
+    for (const KeyframeId k : here) fusion.take_in(map, k, place_.points, place_.lines);
+    for (const KeyframeId k : place_.keyframes) fusion.take_in(map, k, around_.points, around_.lines);
+    for (const KeyframeId k : here) map.update_covisibility(k);
+    for (const KeyframeId k : place_.keyframes) map.update_covisibility(k);
+  }
+
+  [[nodiscard]] static std::vector<KeyframeId> with_neighbours(const Map<S>& map, KeyframeId id) {
+    std::vector<KeyframeId> all(1, id);
+    for (const Neighbour& n : map.keyframes[map.index(id)].neighbours) all.push_back(n.keyframe);
+    return all;
+  }
+
   template <class Seen, class Landmarks, class Fuse, class Observe>
   static void take_over(Map<S>& map, KeyframeId id, const std::vector<LandmarkId>& of_place, Seen seen,
                         const Landmarks& landmarks, Fuse fuse, Observe observe) {
     for (std::size_t i = 0; i < of_place.size(); ++i) {
       if (of_place[i] == kNone || !landmarks[map.index(of_place[i])].alive) continue;
       const LandmarkId own = (map.keyframes[map.index(id)].*seen)[i];
-      if (own == of_place[i] || LandmarkFusion<S>::sees(landmarks[map.index(of_place[i])], id)) continue;
+      if (own == of_place[i] || landmarks[map.index(of_place[i])].seen_by(id)) continue;
       if (own != kNone)
         fuse(own, of_place[i]);
       else
@@ -136,7 +205,7 @@ class LoopClosing {
     }
   }
 
-  LocalMap<S> place_;
+  LocalMap<S> place_, around_;
   std::vector<Sim3<S>> new_from_old_;
   std::optional<PlaceMatch<S>> met_;  // a place that may be one which was left long ago
 };
@@ -145,22 +214,45 @@ template <Scalar S>
 LoopAnswer<S> LoopClosing<S>::close(Map<S>& map, KeyframeId id) {
   const std::optional<Loop<S>> loop = detection.find(map, id, map);
   if (!loop) return {};
-  const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-  const bool drifted = share_in_place(map, keyframe, *loop, fusion.options.point_radius) < options.in_place;
-  // A place that the map expects nearby needs no second sighting.
-  const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
-  if (drifted && share_in_place(map, keyframe, *loop, nearby.reach) < nearby.min_share &&
-      !detection.confirmed(keyframe, map, *loop, met_))
+  const Drift drifted = drift(map, id, *loop);
+  if (drifted == Drift::kLarge && !detection.confirmed(map.keyframes[map.index(id)], map, *loop, met_))
     return {};
   forget();
-  if (drifted && !bend(map, id, *loop)) return {};
-  join(map, id, *loop);
-  if (!drifted) {
-    adjustment.optimise(map, id);
-    return {true, {}};
-  }
-  adjustment.optimise_all(map);
-  return {true, new_from_old_};
+  return close(map, id, *loop, drifted != Drift::kInPlace);
+}
+
+template <Scalar S>
+std::vector<KeyframeId> LoopClosing<S>::missed(const Map<S>& map) {
+  std::vector<std::pair<int, KeyframeId>> found;  // by matches, the most first
+  if (options.trials > 0)
+    for (const Keyframe<S>& keyframe : map.keyframes)
+      if (keyframe.alive())
+        if (const auto loop = detection.find(map, keyframe.id, map))
+          found.emplace_back(-loop->matches, keyframe.id);
+  std::sort(found.begin(), found.end());
+  std::vector<KeyframeId> best;
+  for (std::size_t i = 0; i < found.size() && static_cast<int>(i) < options.trials; ++i)
+    best.push_back(found[i].second);
+  return best;
+}
+
+template <Scalar S>
+LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
+  const std::optional<Loop<S>> loop = detection.find(map, id, map);
+  if (!loop) return {};
+  const Drift drifted = drift(map, id, *loop);
+  if (drifted != Drift::kLarge) return close(map, id, *loop, drifted == Drift::kSmall);
+  const std::vector<KeyframeId> here = with_neighbours(map, id);
+  const std::vector<Sighting> known = sightings(map, here, loop->place);
+  Map<S> trial = map;
+  const LoopAnswer<S> answer = close(trial, id, *loop, true);
+  if (!answer.closed) return {};
+  match_both_ways(trial, here, id);
+  adjustment.optimise_all(trial);
+  const PlaceConfirmationOptions<S>& second = detection.confirmation.options;
+  if (shared_beside<S>(trial, known, here, place_.keyframes, second.apart) < second.min_new) return {};
+  map = std::move(trial);
+  return answer;
 }
 
 template <Scalar S>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sslam/track/contract/concepts.hpp"
 
@@ -21,6 +22,8 @@ static_assert(PlaceFinder<NoPlaces<double>, double>);
 template <Scalar S>
 struct NoLoopClosing {
   LoopAnswer<S> close(Map<S>&, KeyframeId) { return {}; }
+  [[nodiscard]] std::vector<KeyframeId> missed(const Map<S>&) { return {}; }
+  LoopAnswer<S> close_on_trial(Map<S>&, KeyframeId) { return {}; }
   MapJoint<S> merge(Map<S>&, Map<S>, KeyframeId, const Loop<S>&) { return {}; }
   [[nodiscard]] NoPlaces<S> finder() const { return {}; }
   void forget() noexcept {}

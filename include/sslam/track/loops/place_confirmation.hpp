@@ -4,7 +4,6 @@
 // says.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "sslam/residual/line_reprojection.hpp"
 #include "sslam/track/contract/loop.hpp"
 #include "sslam/track/contract/place_match.hpp"
+#include "sslam/track/loops/loop_evidence.hpp"
 
 namespace sslam {
 
@@ -58,7 +58,8 @@ class PlaceConfirmation {
                               const PlaceMatch<S>& first) const {
     const SE3<S> expected = carried(first.there_from_here, keyframe.cam_from_world);
     const Frame<S>& frame = keyframe.frame;
-    const Eigen::AlignedBox<S, 2> known = box_around(first, frame, expected);
+    const auto known =
+        box_around<S>(first.places, frame, expected, options.apart * static_cast<S>(frame.width));
     Tally tally;
     const auto count = [&](const auto& seen, const auto& landmarks, auto is_near) {
       for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -81,19 +82,6 @@ class PlaceConfirmation {
              line.error.cwiseAbs().maxCoeff() < options.reach;
     });
     return tally;
-  }
-
-  // Where the view shows what the first place match showed, and what lies next to it.
-  [[nodiscard]] Eigen::AlignedBox<S, 2> box_around(const PlaceMatch<S>& first, const Frame<S>& frame,
-                                                   const SE3<S>& view) const {
-    Eigen::AlignedBox<S, 2> box;
-    for (const Vec3<S>& landmark : first.places) {
-      const Vec3<S> in_camera = view * landmark;
-      if (in_camera.z() > 0) box.extend(frame.pinhole.project(in_camera));
-    }
-    const S margin = options.apart * static_cast<S>(frame.width);
-    if (!box.isEmpty()) box = {box.min().array() - margin, box.max().array() + margin};
-    return box;
   }
 };
 

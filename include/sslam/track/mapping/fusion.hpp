@@ -42,10 +42,6 @@ class LandmarkFusion {
   void take_in(Map<S>& map, KeyframeId target, std::vector<LandmarkId> point_ids,
                std::vector<LandmarkId> line_ids);
 
-  [[nodiscard]] static bool sees(const LandmarkCommon& landmark, KeyframeId keyframe) {
-    return landmark.seen_by(keyframe);
-  }
-
  private:
   void fuse_point(Map<S>& map, KeyframeId target, LandmarkId id) {
     const Keyframe<S>& kf = map.keyframes[map.index(target)];
