@@ -11,6 +11,7 @@
 #include "sslam/core/move_to_end.hpp"
 #include "sslam/core/parameter.hpp"
 #include "sslam/core/parameter_table.hpp"
+#include "sslam/core/plain_text.hpp"
 #include "sslam/core/random.hpp"
 #include "sslam/core/sha256.hpp"
 #include "sslam/core/status.hpp"

@@ -47,6 +47,26 @@ using WordRows = std::vector<std::vector<std::string>>;
   return rows;
 }
 
+// Whether numbers are written as 500,5: blanks or semicolons separate them, and each comma is between two
+// digits.
+[[nodiscard]] inline bool has_decimal_commas(const std::string& line) {
+  std::string bare = line.substr(0, line.find('#'));
+  for (char& c : bare)
+    if (std::string_view(";[]").find(c) != std::string_view::npos) c = ' ';
+  const std::vector<std::string> cells = words_of(bare);
+  bool any = false;
+  for (std::string cell : cells) {
+    const std::size_t comma = cell.find(',');
+    if (comma != std::string::npos) {
+      if (comma == 0 || comma + 1 == cell.size() || cell.find('.') != std::string::npos) return false;
+      cell[comma] = '.';
+      any = true;
+    }
+    if (!is_number(cell)) return false;
+  }
+  return any && cells.size() > 1;
+}
+
 [[nodiscard]] inline std::vector<double> row_numbers(const CameraKeys& keys,
                                                      const std::vector<std::string>& row, std::size_t from) {
   std::vector<double> values;
@@ -139,6 +159,15 @@ inline int row_pixels(const CameraKeys& keys, double value) {
                                                                 const std::string& path) {
   const WordRows rows = word_rows(text);
   if (rows.empty()) return std::nullopt;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (has_decimal_commas(line))
+      throw Error(path + ": line " + std::to_string(number) + ": '" + line.substr(0, 60) +
+                  "' has decimal commas; expected decimal points");
+    if (words_of(line).size() > 20) break;  // no row of a calibration
+  }
   const TextNode none;
   const CameraKeys keys(none, path);
   const auto numeric = [](const std::vector<std::string>& row, std::size_t from) {
