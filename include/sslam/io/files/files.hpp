@@ -142,6 +142,11 @@ template <class Predicate>
   return files;
 }
 
+// Whether any file lies in a folder that is there.
+[[nodiscard]] inline bool holds_files(const std::filesystem::path& folder) {
+  return !list_files(folder, [](const auto&) { return true; }).empty();
+}
+
 // Folders in a folder, without hidden ones. Empty when there is no such folder.
 [[nodiscard]] inline std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> folders;

@@ -143,6 +143,9 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   return times;
 }
 
+// In place of a list of times: none is looked for, and poses without stamps are counted.
+inline const std::filesystem::path kNoTimes{"-"};
+
 // transforms.json: without timestamps its files in their natural order have the times, or are counted.
 [[nodiscard]] inline PoseFile read_transforms_poses(const std::filesystem::path& path, Warnings& warnings,
                                                     std::filesystem::path times) {
@@ -199,7 +202,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   std::vector<double> clock;
   if (!has_stamp(layout)) {
     if (times.empty()) times = trajectory_detail::find_times(path);
-    if (!times.empty()) clock = read_times(times);
+    if (!times.empty() && times != kNoTimes) clock = read_times(times);
     result.counted = clock.empty();
     if (!result.counted && clock.size() != rows.size())
       throw Error(times.string() + ": has " + std::to_string(clock.size()) + " times for the " +
