@@ -6,6 +6,7 @@
 #include "sslam/core/closest_word.hpp"
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/error.hpp"
+#include "sslam/core/file_kind.hpp"
 #include "sslam/core/inline_vector.hpp"
 #include "sslam/core/median.hpp"
 #include "sslam/core/move_to_end.hpp"

@@ -14,7 +14,6 @@
 #include "sslam/opencv/camera/matrix_cameras.hpp"
 #include "sslam/opencv/camera/metashape.hpp"
 #include "sslam/opencv/camera/named_cameras.hpp"
-#include "sslam/opencv/camera/not_a_camera.hpp"
 #include "sslam/opencv/camera/photo_cameras.hpp"
 #include "sslam/opencv/camera/same_camera.hpp"
 #include "sslam/opencv/camera/slam_cameras.hpp"

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/file_kind.hpp"
 #include "sslam/io/files/bad_entries.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/plain_text.hpp"
@@ -164,6 +165,8 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
                                                              Warnings& warnings,
                                                              std::vector<StampedFile>* second = nullptr) {
   const std::string text = read_plain_text(list);
+  if (const std::string kind = file_kind(text); !kind.empty())
+    throw Error(list.string() + ": " + kind + "; expected rows of 'stamp file' in plain text");
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");

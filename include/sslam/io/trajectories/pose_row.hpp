@@ -48,7 +48,7 @@ inline constexpr std::string_view kPoseRows =
 // The number, not a number where the cell says so in a word, nothing where it is something else.
 [[nodiscard]] inline std::optional<double> parse_cell(std::string_view cell) {
   if (says_nothing(cell)) return std::numeric_limits<double>::quiet_NaN();
-  return parse_decimal(cell);
+  return parse_number<double>(cell);
 }
 
 // Whether the numbers of a pose mean that there is none: not finite, or all zero.

@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "sslam/core/error.hpp"
+#include "sslam/core/file_kind.hpp"
 #include "sslam/core/plain_text.hpp"
 #include "sslam/core/text_tree.hpp"
 #include "sslam/opencv/camera/assigned_tree.hpp"
 #include "sslam/opencv/camera/camera_rows.hpp"
 #include "sslam/opencv/camera/camera_trees.hpp"
 #include "sslam/opencv/camera/metashape.hpp"
-#include "sslam/opencv/camera/not_a_camera.hpp"
 
 namespace sslam {
 namespace detail {
@@ -35,7 +35,9 @@ namespace detail {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file) throw Error(path.string() + ": cannot open this camera file");
-  if (const std::string other = not_a_camera(text); !other.empty()) throw Error(path.string() + ": " + other);
+  if (const std::string other = file_kind(text); !other.empty())
+    throw Error(path.string() + ": " + other +
+                "; expected a calibration in plain text, such as a row 'fx fy cx cy k1 k2 p1 p2 k3'");
   text = plain_text(std::move(text));
   if (text.find('\0') != std::string::npos)
     throw Error(path.string() + ": is no text; expected a camera file in plain text");
