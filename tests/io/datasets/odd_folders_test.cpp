@@ -135,6 +135,32 @@ TEST_CASE("Depth that is no image costs the depth, not the run") {
   CHECK(contains(dataset.warnings[0], "depth: 0.npy is in no format that is read: depth left out"));
 }
 
+TEST_CASE("A sequence of images by the pattern of their numbers") {
+  const ScratchFolder scratch;
+  for (const char* name : {"img_0001.png", "img_0002.png", "img_0010.png", "img_0002_mask.png", "img_3.png"})
+    scratch.write(name);
+  CHECK(io::open_dataset(scratch.path() / "img_%04d.png").frames.size() == 3);
+  CHECK(io::open_dataset(scratch.path() / "img_%d.png").frames.size() == 1);
+  CHECK(contains(error_of([&] { (void)io::open_dataset(scratch.path() / "img_%05d.png"); }),
+                 "img_%05d.png: no image matches"));
+}
+
+TEST_CASE("A video is told by its content where its name does not tell") {
+  using namespace std::string_literals;
+  const ScratchFolder scratch;
+  const std::string start = GENERATE(as<std::string>(),
+                                     "\0\0\0\x20"
+                                     "ftypisom"s,
+                                     "\x1A\x45\xDF\xA3\1"s, "RIFF\0\0\0\0AVI LIST"s, "OggS\0"s,
+                                     "\0\0\1\xBA\0"s, "\0\0\0\1\x67\x42"s, "YUV4MPEG2 W320"s);
+  const auto file = scratch.write("recording", start + std::string(600, '.'));
+  CHECK(io::open_dataset(file).layout == io::Layout::kVideo);
+  const auto photo = scratch.write("photo",
+                                   "\0\0\0\x20"
+                                   "ftypheic"s);
+  CHECK(contains(error_of([&] { (void)io::open_dataset(photo); }), "is neither a folder nor a video"));
+}
+
 TEST_CASE("Depth images have the names of colour images whatever their format") {
   const ScratchFolder scratch;
   for (const char* name : {"hall", "door"}) {

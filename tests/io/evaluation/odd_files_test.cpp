@@ -45,7 +45,7 @@ TEST_CASE("Poses with decimal commas, between semicolons, tabs or blanks") {
   CAPTURE(cut);
   std::string text;
   for (int i = 0; i < 4; ++i)
-    for (const std::string cell :
+    for (const std::string& cell :
          {"1," + std::to_string(i), std::string("0,5"), std::string("-0,25"), std::string("2"),
           std::string("0"), std::string("0,0"), std::string("0,6"), std::string("0,8")})
       text += cell + (cell == "0,8" ? "\n" : cut);

@@ -24,6 +24,7 @@
 #include "sslam/io/datasets/video.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/io/files/video_content.hpp"
 
 namespace sslam::io {
 
@@ -113,10 +114,12 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) {
     if (has_wildcards(path.string())) return read_image_glob(path, options.frame_rate);
+    if (const auto pattern = number_pattern(path.filename().string()))
+      return read_numbered_images(path, *pattern, options.frame_rate);
     throw Error(path.string() + ": no such file or folder");
   }
   if (!std::filesystem::is_directory(status)) {
-    if (is_video_name(path)) return read_video(path);
+    if (std::filesystem::is_regular_file(status) && is_video_file(path)) return read_video(path);
     if (is_bag_name(path)) return unread_bag(path);
     if (is_image_name(path))
       throw Error(path.string() + ": is one image; a run needs many: name their folder, or a glob in quotes");
