@@ -145,6 +145,13 @@ TEST_CASE("A sequence of images by the pattern of their numbers") {
                  "img_%05d.png: no image matches"));
 }
 
+TEST_CASE("A folder of images that are not read is told by their format") {
+  const ScratchFolder scratch;
+  for (const char* name : {"1.heic", "2.HEIC", "3.heic"}) scratch.write(name);
+  CHECK(contains(error_of([&] { (void)io::open_dataset(scratch.path()); }),
+                 "no dataset here: 3 files such as 1.heic are in a format that is not read"));
+}
+
 TEST_CASE("A video is told by its content where its name does not tell") {
   using namespace std::string_literals;
   const ScratchFolder scratch;

@@ -55,14 +55,16 @@ TEST_CASE("Numbers within names that are no stamps, and stamps behind two texts,
   CHECK(stamps_of(names).seconds.empty());
 }
 
-TEST_CASE("Dates with years of two digits") {
-  const Names names = GENERATE(Names{"240501123015", "240501123117"}, Names{"240501_123015", "240501_123117"},
-                               Names{"cam_240501-123015_1", "cam_240501-123117_2"},
-                               Names{"IMG_240501 123015", "IMG_240501 123117"});
+TEST_CASE("Dates with years of two digits, where the time alone does not tell") {
+  const Names names = GENERATE(Names{"240501123015", "240501123017"}, Names{"240501_123015", "240501_123017"},
+                               Names{"cam_240501-123015_1", "cam_240501-123017_2"},
+                               Names{"IMG_240501 123015", "IMG_240501 123017"});
   CAPTURE(names.front());
   const io::NameStamps stamps = stamps_of(names);
-  CHECK(stamps.seconds == Stamps{kHalfPastNoon, kHalfPastNoon + 62});
+  CHECK(stamps.seconds == Stamps{kHalfPastNoon, kHalfPastNoon + 2});
   CHECK(contains(stamps.note, "names are dates and times, such as " + names.front()));
+  CHECK(stamps_of({"240501123059", "240501123100", "240501123102"}).seconds ==
+        Stamps{kHalfPastNoon + 44, kHalfPastNoon + 45, kHalfPastNoon + 47});
 }
 
 TEST_CASE("A counter behind a short date is none of its times") {

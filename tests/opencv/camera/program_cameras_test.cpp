@@ -176,6 +176,15 @@ TEST_CASE("Rows of 'key = value', also below a section") {
               kPlane, 752, 480);
 }
 
+TEST_CASE("Of COLMAP's cameras the first is taken, and another size is told") {
+  const CameraFile file = read_as(
+      "# cameras\n1 PINHOLE 752 480 461.5 460.25 363.5 249\n"
+      "2 PINHOLE 320 240 200 200 160 120\n");
+  check_plane(file, kPlane, 752, 480);
+  REQUIRE(file.notes.size() == 1);
+  CHECK(file.notes[0].find("the first is taken (752x480; another is of 320x240: ") != std::string::npos);
+}
+
 TEST_CASE("Files that hold no camera are told by their kind") {
   using namespace std::string_literals;
   check_refusal("PK\3\4\0\0abc"s, "NumPy's .npz");

@@ -152,11 +152,11 @@ struct OneSecond {
     all_dates = all_dates && names.back().kind >= DateKind::kDateAlone;
   }
   bool dated = any || all_dates;  // eight digits in some names need not be a date
-  if (!dated) {
+  if (!dated) names = times_in_names(stems);
+  if (names.empty()) {
     names = name_times_detail::short_dates_in(stems);
     dated = !names.empty();
   }
-  if (!dated) names = times_in_names(stems);
   if (names.empty()) return {};
   const auto refuse = [dated](const std::string& why) {
     return NameDates{{}, std::string("names hold ") + (dated ? "dates" : "times") + ", but " + why};

@@ -21,6 +21,7 @@
 #include "sslam/io/datasets/seven_scenes.hpp"
 #include "sslam/io/datasets/transforms_folder.hpp"
 #include "sslam/io/datasets/tum.hpp"
+#include "sslam/io/datasets/unread_images.hpp"
 #include "sslam/io/datasets/video.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
@@ -130,6 +131,8 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.matches(path)) return known.read(path, options);
   }
+  if (const std::string unread = unread_images(path); !unread.empty())
+    throw Error(path.string() + ": no dataset here: " + unread);
   const bool empty = std::filesystem::is_empty(path, ignored);
   const std::string nearest = nearest_layout(path), below = datasets_below(path);
   throw Error(path.string() + (empty ? ": the folder is empty" : ": no dataset here") +

@@ -108,6 +108,15 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   return 0;
 }
 
+// Of several cameras: "; another is of 320x240"; empty where all have one size.
+[[nodiscard]] inline std::string other_size(const WordRows& rows) {
+  for (const std::vector<std::string>& row : rows)
+    if (row.size() > 3 && (row[2] != rows.front()[2] || row[3] != rows.front()[3]))
+      return " (" + rows.front()[2] + "x" + rows.front()[3] + "; another is of " + row[2] + "x" + row[3] +
+             ": for its images, keep its row alone)";
+  return {};
+}
+
 // CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]. The first pixel's centre is (0.5, 0.5).
 [[nodiscard]] inline CameraFile read_colmap(const CameraKeys& keys, const WordRows& rows) {
   CameraFile file;
@@ -126,7 +135,8 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   set_pinhole(keys, v[2], one_focal ? v[2] : v[3], v[first - 2] - 0.5, v[first - 1] - 0.5, file);
   std::vector<double> lens(v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
   set_lens(keys, model, lens, file);
-  if (rows.size() > 1) file.notes.push_back(keys.file() + ": has several cameras; the first is taken");
+  if (rows.size() > 1)
+    file.notes.push_back(keys.file() + ": has several cameras; the first is taken" + other_size(rows));
   return file;
 }
 
