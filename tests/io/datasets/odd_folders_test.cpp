@@ -178,6 +178,9 @@ TEST_CASE("Depth images have the names of colour images whatever their format") 
   REQUIRE(dataset.frames.size() == 2);
   CHECK(contains(dataset.frames[0].depth, "depth/door.tiff"));
   CHECK(dataset.warnings.empty());
+  scratch.write("depth/door.jpg");  // a picture of it
+  scratch.write("depth/door.png");
+  CHECK(contains(io::open_dataset(scratch.path()).frames[0].depth, "depth/door.png"));
 }
 
 }  // namespace odd_folders_test

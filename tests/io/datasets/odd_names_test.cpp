@@ -50,7 +50,8 @@ TEST_CASE("What the stamp within a name is, is told") {
 TEST_CASE("Numbers within names that are no stamps, and stamps behind two texts, are left alone") {
   const Names names =
       GENERATE(Names{"frame_000001", "frame_000002"}, Names{"a_1700000000250", "b_1700000000750"},
-               Names{"cam_123456789", "cam_123456790"}, Names{"1700000000250_a1", "1700000000750_a2"});
+               Names{"cam_123456789", "cam_123456790"}, Names{"photo_1234567890", "photo_1234567891"},
+               Names{"1700000000250_a1", "1700000000750_a2"});
   CAPTURE(names.front());
   CHECK(stamps_of(names).seconds.empty());
 }

@@ -73,7 +73,10 @@ inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& f
   const std::vector<std::filesystem::path> depths = list_files(folder, is_image_name);
   if (depths.empty()) return tell_unread_depth(dataset, folder);
   std::map<std::string, const std::filesystem::path*> by_name;
-  for (const std::filesystem::path& depth : depths) by_name.emplace(depth.stem().string(), &depth);
+  for (const std::filesystem::path& depth : depths) {
+    const auto [other, alone] = by_name.emplace(depth.stem().string(), &depth);
+    if (!alone && lower_case(depth.extension().string()) == ".png") other->second = &depth;  // not a picture
+  }
   std::size_t found = 0;
   for (FrameEntry& frame : dataset.frames) {
     const auto same = by_name.find(std::filesystem::path(frame.image).stem().string());

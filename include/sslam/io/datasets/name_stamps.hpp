@@ -57,13 +57,14 @@ struct SplitName {
   return name;
 }
 
-// Whole numbers. `since_1970`: of no other clock.
+// Whole numbers. `since_1970`: of no other clock, and not of seconds: ids and counters have ten digits, too.
 [[nodiscard]] inline std::optional<Numbers> stamps_of_numbers(std::vector<double> stamps, bool since_1970) {
   const StampUnit unit = stamp_unit_of(stamps, StampsOf::kOther);
   for (double& stamp : stamps) stamp /= unit.per_second;
   const double last = *std::max_element(stamps.begin(), stamps.end());
   constexpr double kLongestRun = 1e6;  // days, for a clock that begins with the recording
-  const bool sensible = is_epoch(last) || (!since_1970 && !unit.is_seconds() && last < kLongestRun);
+  const bool fine = !unit.is_seconds();
+  const bool sensible = since_1970 ? fine && is_epoch(last) : is_epoch(last) || (fine && last < kLongestRun);
   return sensible ? std::optional(Numbers{std::move(stamps), unit}) : std::nullopt;
 }
 
