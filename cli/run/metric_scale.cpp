@@ -46,17 +46,6 @@ std::map<std::int64_t, const io::FrameEntry*> frames_with_depth(const io::Datase
   return frames;
 }
 
-// Of what was measured; 0 for other types, and where nothing was.
-double median_of_floats(const cv::Mat& depth) {
-  if (depth.type() != CV_32FC1) return 0;
-  std::vector<double> values;
-  for (int v = 0; v < depth.rows; v += 4)
-    for (int u = 0; u < depth.cols; u += 4)
-      if (const float value = depth.at<float>(v, u); std::isfinite(value) && value > 0)
-        values.push_back(value);
-  return values.empty() ? 0 : median<double>(values);
-}
-
 void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRecord& scale) {
   constexpr std::size_t kLandmarks = 10, kKeyframes = 2;  // of a keyframe; of the map
   constexpr double kAgree = 0.3, kFarthest = 200;  // the latter in metres: no sensor sees farther indoors
