@@ -54,6 +54,13 @@ double focal_of_view(double degrees_across, int pixels) {
   return 0.5 * pixels / std::tan(0.5 * radians(degrees_across));
 }
 
+// Where the camera says nothing about depth, the dataset does.
+void complete_depth(CameraChoice& choice, const io::Dataset& dataset) {
+  if (choice.depth_factor == 0) choice.depth_factor = dataset.depth_factor;
+  if (choice.depth_factor > 0) return;
+  if (const auto known = io::known_camera_for(dataset)) choice.depth_factor = known->depth_factor;
+}
+
 }  // namespace
 
 CameraChoice camera_from_file(const std::filesystem::path& path) {
@@ -65,9 +72,8 @@ CameraChoice camera_from_file(const std::filesystem::path& path) {
 
 std::optional<CameraChoice> find_camera(const std::string& wanted, const io::Dataset& dataset) {
   const auto known = io::known_camera_for(dataset);
-  const auto complete = [&](CameraChoice choice) {
-    if (choice.depth_factor == 0) choice.depth_factor = dataset.depth_factor;
-    if (choice.depth_factor == 0 && known) choice.depth_factor = known->depth_factor;
+  const auto complete = [&dataset](CameraChoice choice) {
+    complete_depth(choice, dataset);
     return choice;
   };
   if (!wanted.empty()) {
@@ -168,6 +174,7 @@ CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, i
   std::optional<CameraChoice> choice = wished_camera(wish, width, height);
   if (!choice) choice = find_camera(wish.file, dataset);
   if (!choice) choice = assumed_camera(dataset, width, height);
+  complete_depth(*choice, dataset);
   fit_camera(choice->camera, width, height, choice->source, choice->notes, choice->warnings);
   take_view(*choice, wish.undistort_fov);
   return *choice;

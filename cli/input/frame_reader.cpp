@@ -42,7 +42,8 @@ cv::Mat FrameReader::read_depth(const io::FrameEntry& entry, std::string& why) {
   cv::Mat depth = depths_ ? depths_->depth(entry.index, label(entry), why)
                           : load_depth(entry.depth, dataset_.layout, why);
   if (depth.empty() || depth.type() == CV_16UC1 || depth.type() == CV_32FC1) return depth;
-  why = entry.depth + ": is no depth image; expected one channel of 16 bit, or of floats";
+  why = entry.depth + ": is no depth image, with " + std::to_string(depth.channels()) + " channels of " +
+        std::to_string(8 * depth.elemSize1()) + " bit; expected one of 16 bit, or of floats in metres";
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include "cli/input/bag_reader.hpp"
 #include "cli/input/image_file.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
+#include "sslam/io/files/video_content.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -56,7 +57,7 @@ io::Dataset open_images(const std::filesystem::path& path, const io::BagTopics& 
   if (std::filesystem::is_regular_file(path, ignored)) {
     if (io::is_image_name(path))
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
-    if (!io::is_video_name(path) && !io::is_bag_name(path))
+    if (!io::is_video_file(path) && !io::is_bag_name(path))
       throw Error(
           path.string() +
           ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");

@@ -165,6 +165,7 @@ VideoTimes read_video_times(const std::filesystem::path& file, std::int64_t at_m
   std::sort(found.times.begin(), found.times.end());
   if (at_most >= 0 && found.frames > at_most) {
     found.frames = at_most;
+    found.whole = false;
     found.times.resize(std::min(found.times.size(), static_cast<std::size_t>(at_most)));
   }
   return found;

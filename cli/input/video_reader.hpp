@@ -27,7 +27,7 @@ struct VideoTimes {
   std::vector<double>
       times;  // of the frames, seconds on the container's clock, in order of display; empty: not known
   std::int64_t frames = 0;  // that are there to be shown
-  bool whole = true;        // the container was read to its end
+  bool whole = true;        // these are all
 };
 
 class VideoReader {

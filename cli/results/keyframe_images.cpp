@@ -31,7 +31,7 @@ std::string image_name(const std::string& label, std::int64_t index, bool of_bag
   const std::string tail = " frame " + std::to_string(index);
   if (!label.ends_with(tail)) return label;
   const std::string file = label.substr(0, label.size() - tail.size());
-  return of_bag || io::is_video_name(file) ? video_frame_stem(file, index) + ".png" : label;
+  return of_bag || !io::is_image_name(file) ? video_frame_stem(file, index) + ".png" : label;
 }
 
 std::map<std::int64_t, NamedFrame> named_frames(const io::CsvTable& frames, bool of_bag) {

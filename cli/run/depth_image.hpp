@@ -7,10 +7,23 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <utility>
+#include <vector>
 
+#include "sslam/core/median.hpp"
 #include "sslam/geometry/camera.hpp"
 
 namespace sslam::cli {
+
+// Of what was measured; 0 for other types, and where nothing was.
+[[nodiscard]] inline double median_of_floats(const cv::Mat& depth) {
+  if (depth.type() != CV_32FC1) return 0;
+  std::vector<double> values;
+  for (int v = 0; v < depth.rows; v += 4)
+    for (int u = 0; u < depth.cols; u += 4)
+      if (const float value = depth.at<float>(v, u); std::isfinite(value) && value > 0)
+        values.push_back(value);
+  return values.empty() ? 0 : median<double>(values);
+}
 
 // Depth at an undistorted pixel of the images as they are worked on.
 class DepthImage {

@@ -48,10 +48,11 @@ std::map<std::int64_t, const io::FrameEntry*> frames_with_depth(const io::Datase
 
 void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRecord& scale) {
   constexpr std::size_t kLandmarks = 10, kKeyframes = 2;  // of a keyframe; of the map
-  constexpr double kAgree = 0.3;
+  constexpr double kAgree = 0.3, kFarthest = 200;  // the latter in metres: no sensor sees farther indoors
   const auto frames = frames_with_depth(input.dataset);
   FrameReader reader(input.dataset);
   std::vector<double> medians, all;
+  std::string fault;  // of the first depth image that cannot be used
   for (const Keyframe<double>& kf : outcome.map.keyframes) {
     if (!kf.alive()) continue;
     const auto entry = frames.find(kf.frame.index);
@@ -59,7 +60,15 @@ void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRec
     if (entry == frames.end() || entry->second->stamp != kf.frame.stamp) continue;
     std::string why;
     const cv::Mat read = reader.read_depth(*entry->second, why);
-    if (read.empty()) continue;
+    if (read.empty()) {
+      if (fault.empty()) fault = why;
+      continue;
+    }
+    if (const double middle = median_of_floats(read); middle > kFarthest) {
+      scale.problem = entry->second->depth + ": its floats have the median " +
+                      std::to_string(static_cast<int>(middle)) + "; expected metres: are these millimetres?";
+      return;
+    }
     const DepthImage depth(read, input.depth_factor, input.working_camera);
     if (!depth.fits()) {
       scale.problem = entry->second->depth + ": is no depth image of the shape of the colour images";
@@ -75,7 +84,7 @@ void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRec
   if (medians.size() < kKeyframes) {
     scale.problem = std::to_string(medians.size()) + " keyframes have depth at " +
                     std::to_string(kLandmarks) + " of their landmarks or more, " +
-                    std::to_string(kKeyframes) + " are needed";
+                    std::to_string(kKeyframes) + " are needed" + (fault.empty() ? "" : "; " + fault);
     return;
   }
   const CommonRatio<double> common = common_ratio<double>(medians);

@@ -21,7 +21,8 @@ inline void apply_config_item(CLI::App& command, const std::string& file, const 
   const bool parameter = !item.parents.empty() && item.parents.front() == "set";
   const std::string key = item.fullname();
   CLI::Option* const option = command.get_option_no_throw(parameter ? "--set" : "--" + key);
-  if (option == nullptr || key == "config") {
+  if (key == "config") throw Error(file + ": 'config': a file of options names no other one");
+  if (option == nullptr) {
     std::vector<std::string> known;
     for (const CLI::Option* each : command.get_options())
       for (const std::string& name : each->get_lnames()) known.push_back(name);

@@ -43,7 +43,10 @@ bool comes_as_images(const AVFormatContext& format, const AVStream& stream) {
 
 std::string reason_of(int code) {
   if (code == AVERROR_INVALIDDATA) return "sends nothing that is a video or an image";
-  if (code == AVERROR(EIO)) return "broke off before anything of use came";
+  if (code == AVERROR(EIO))
+    return "broke off before anything of use came; expected a stream or a video: is the host known, and is "
+           "this "
+           "no web page?";
   if (code == AVERROR_EXIT) return "does not answer";
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, text, sizeof text);
@@ -110,6 +113,8 @@ void AvStream::Parts::open(const std::string& url, AVDictionary* options) {
     opened->pb = bytes;
     opened->flags |= AVFMT_FLAG_CUSTOM_IO;
   }
+  if (bytes == nullptr && url.starts_with("file:"))
+    throw Error(name + ": is a file of this machine; name it without file://");
   int code = avformat_open_input(&opened, bytes != nullptr ? nullptr : url.c_str(), nullptr, &options);
   av_dict_free(&options);
   format.reset(opened);

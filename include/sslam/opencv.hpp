@@ -2,6 +2,7 @@
 // Everything of the component opencv: images to features and normals.
 #pragma once
 
+#include "sslam/opencv/camera/assigned_tree.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "sslam/opencv/camera/camera_keys.hpp"
 #include "sslam/opencv/camera/camera_rows.hpp"
@@ -11,8 +12,11 @@
 #include "sslam/opencv/camera/lens_table.hpp"
 #include "sslam/opencv/camera/lens_words.hpp"
 #include "sslam/opencv/camera/matrix_cameras.hpp"
+#include "sslam/opencv/camera/metashape.hpp"
 #include "sslam/opencv/camera/named_cameras.hpp"
+#include "sslam/opencv/camera/photo_cameras.hpp"
 #include "sslam/opencv/camera/same_camera.hpp"
+#include "sslam/opencv/camera/slam_cameras.hpp"
 #include "sslam/opencv/camera/storage_file.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
 #include "sslam/opencv/camera/wide_lens.hpp"

@@ -32,6 +32,8 @@ TEST_CASE("A camera that cannot be that of its images has a fault") {
   CHECK(holds(fault_of({{481.2, 480, 319.5, 239.5}, {}, 320, 240}),
               "(319.5, 239.5) is far from the middle of 320x240"));
   CHECK(holds(fault_of({{0.8, 0.9, 319.5, 239.5}, {}, 640, 480}), "field of view of 180 by 180 degrees"));
+  CHECK(holds(fault_of({{0.8, 0.9, 319.5, 239.5}, {}, 640, 480}), "are these parts of the image's size?"));
+  CHECK(holds(fault_of({{4.2, 4.2, 319.5, 239.5}, {}, 640, 480}), "are these millimetres?"));
   CHECK(holds(fault_of({{52500, 52500, 319.5, 239.5}, {}, 640, 480}), "expected focal lengths in pixels"));
   CHECK(holds(fault_of({{525, 200, 319.5, 239.5}, {}, 640, 480}), "differ by a factor of 2.6"));
   CHECK(holds(fault_of({{525, 525, 319.5, 239.5}, {-2, 0, 0, 0, 0}, 640, 480}), "the distortion turns back"));

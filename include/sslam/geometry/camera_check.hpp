@@ -68,6 +68,9 @@ struct CameraCheck {
         "in "
         "pixels of these images",
         p.fx, p.fy, camera.width, camera.height, across, down);
+    constexpr double kPixels = 0.05;  // of the width: fewer are no focal length of a camera in pixels
+    if (p.fx < kPixels * camera.width)
+      check.fault += p.fx < 2 ? ": are these parts of the image's size?" : ": are these millimetres?";
     return check;
   }
   // Of the image's width and height, counted from its middle.

@@ -31,7 +31,7 @@ namespace sslam::io {
 }
 
 [[nodiscard]] inline bool is_colour_depth(const std::filesystem::path& root) {
-  return !find_colour_folder(root).empty() && is_image_folder(find_folder(root, "depth"));
+  return !find_colour_folder(root).empty() && holds_files(find_folder(root, "depth"));
 }
 
 [[nodiscard]] inline bool is_scannet(const std::filesystem::path& root) {
@@ -59,15 +59,29 @@ namespace sslam::io {
   return found;
 }
 
+// Of a folder whose files are no images.
+inline void tell_unread_depth(Dataset& dataset, const std::filesystem::path& folder) {
+  const auto files = list_files(folder, [](const auto&) { return true; });
+  if (!files.empty())
+    dataset.warnings.push_back(folder.string() + ": " + files.front().filename().string() +
+                               " is in no format that is read: depth left out; expected images, such as PNG "
+                               "of 16 bit or TIFF of 32 bit in metres");
+}
+
 // Depth images of the same names; else with stamps for names the nearest in time; else of the same numbers.
 inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> depths = list_files(folder, is_image_name);
+  if (depths.empty()) return tell_unread_depth(dataset, folder);
+  std::map<std::string, const std::filesystem::path*> by_name;
+  for (const std::filesystem::path& depth : depths) {
+    const auto [other, alone] = by_name.emplace(depth.stem().string(), &depth);
+    if (!alone && lower_case(depth.extension().string()) == ".png") other->second = &depth;  // not a picture
+  }
   std::size_t found = 0;
   for (FrameEntry& frame : dataset.frames) {
-    const std::filesystem::path same = folder / std::filesystem::path(frame.image).stem().concat(".png");
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(same, ignored)) continue;
-    frame.depth = same.string();
+    const auto same = by_name.find(std::filesystem::path(frame.image).stem().string());
+    if (same == by_name.end()) continue;
+    frame.depth = same->second->string();
     ++found;
   }
   if (found == 0) {
@@ -78,7 +92,7 @@ inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& f
     }
   }
   if (found == 0) found = attach_depth_numbers(dataset, depths);
-  if (found == 0 && !depths.empty())
+  if (found == 0)
     dataset.warnings.push_back(folder.string() +
                                ": none of its images has the name, the time or the number of a colour "
                                "image: depth left out");

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/file_kind.hpp"
 #include "sslam/io/files/bad_entries.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/plain_text.hpp"
@@ -38,6 +39,15 @@ namespace file_list_detail {
   for (char& c : name)
     if (c == '\\') c = '/';
   const bool absolute = name.starts_with('/') || (name.size() > 1 && name[1] == ':');
+  // As seen from a folder above.
+  std::error_code ignored;
+  std::filesystem::path above =
+      std::filesystem::absolute(root / ".", ignored).lexically_normal().parent_path();
+  constexpr int kLevels = 4;
+  for (int i = 0; !absolute && name.find('/') != std::string::npos && i < kLevels; ++i) {
+    above = above.parent_path();
+    if (is_file(above / name)) return (above / name).string();
+  }
   for (std::size_t at = absolute ? name.find('/') : 0; at != std::string::npos && at < name.size();) {
     const std::size_t start = name[at] == '/' ? at + 1 : at;
     if (is_file(root / name.substr(start))) return (root / name.substr(start)).string();
@@ -45,6 +55,15 @@ namespace file_list_detail {
     at = name.find('/', start);
   }
   return (root / name).string();
+}
+
+// The same, with the extension of an image where the name has none.
+[[nodiscard]] inline std::string find_image(const std::filesystem::path& root, const std::string& name) {
+  std::string file = find_listed(root, name);
+  if (is_file(file)) return file;
+  for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG", ".webp"})
+    if (std::string longer = find_listed(root, name + extension); is_file(longer)) return longer;
+  return file;
 }
 
 // Takes cells from the front of a row.
@@ -62,7 +81,7 @@ class RowReader {
   // A blank or a comma may be part of a name, which ends with the extension of an image. Where several do,
   // the first that is there counts.
   [[nodiscard]] std::string take_file(const std::filesystem::path& root) {
-    if (in_quotes()) return find_listed(root, std::string(take_cell()));
+    if (in_quotes()) return find_image(root, std::string(take_cell()));
     std::optional<std::size_t> first;
     for (std::size_t end = cell_end(0);;) {
       if (const std::string name(left_.substr(0, end)); is_image_name(name)) {
@@ -74,7 +93,7 @@ class RowReader {
       if (next == std::string_view::npos) break;
       end = cell_end(next);
     }
-    return find_listed(root, std::string(take(first.value_or(cell_end(0)))));
+    return find_image(root, std::string(take(first.value_or(cell_end(0)))));
   }
 
  private:
@@ -98,12 +117,30 @@ class RowReader {
   std::string_view left_, separators_;
 };
 
+// Whether a file that is not there has a number in front of its name: a counter, or what a decimal comma has
+// cut off.
+[[nodiscard]] inline bool has_second_number(const StampedFile& entry, const std::filesystem::path& root) {
+  if (is_file(entry.file)) return false;
+  const std::string name = std::filesystem::path(entry.file).lexically_relative(root).string();
+  const std::vector<std::string_view> cells = split_cells(name);
+  return cells.size() > 1 && parse_number<double>(cells[0]) && is_image_name(cells[1]);
+}
+
+// `stamp file`, `file stamp`, or a stamp that is the name of a file, too.
 [[nodiscard]] inline std::optional<StampedFile> take_stamped_file(RowReader& row,
                                                                   const std::filesystem::path& root) {
   if (row.done()) return std::nullopt;
-  const auto stamp = parse_number<double>(row.take_cell());
-  if (!stamp || !std::isfinite(*stamp) || row.done()) return std::nullopt;
-  return StampedFile{*stamp, row.take_file(root)};
+  const std::string_view first = row.take_cell();
+  const auto stamp = parse_decimal(first);
+  if (stamp && !std::isfinite(*stamp)) return std::nullopt;
+  if (row.done()) {
+    const std::string file = stamp ? find_image(root, std::string(first)) : std::string();
+    return is_file(file) ? std::optional(StampedFile{*stamp, file}) : std::nullopt;
+  }
+  if (stamp) return StampedFile{*stamp, row.take_file(root)};
+  const auto second = is_image_name(first) ? parse_decimal(row.take_cell()) : std::nullopt;
+  if (!second || !std::isfinite(*second)) return std::nullopt;
+  return StampedFile{*second, find_listed(root, std::string(first))};
 }
 
 }  // namespace file_list_detail
@@ -128,6 +165,8 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
                                                              Warnings& warnings,
                                                              std::vector<StampedFile>* second = nullptr) {
   const std::string text = read_plain_text(list);
+  if (const std::string kind = file_kind(text); !kind.empty())
+    throw Error(list.string() + ": " + kind + "; expected rows of 'stamp file' in plain text");
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");
@@ -138,6 +177,10 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
     auto file = file_list_detail::take_stamped_file(reader, root);
     if (!file) {
       bad.add(row.line, "expected 'stamp file' with the stamp as a number");
+      continue;
+    }
+    if (file_list_detail::has_second_number(*file, root)) {
+      bad.add(row.line, "has two numbers before the file; expected 'stamp file', with a decimal point");
       continue;
     }
     files.push_back(std::move(*file));

@@ -50,8 +50,7 @@ inline constexpr double kIclNuimFrameRate = 30;
 
 // With depth beside them, such images are colour and depth folders.
 [[nodiscard]] inline bool is_icl_nuim(const std::filesystem::path& root) {
-  return has_numbered_images(root) &&
-         !(has_images_alone(root) && !list_files(root / "depth", is_image_name).empty());
+  return has_numbered_images(root) && !(has_images_alone(root) && holds_files(root / "depth"));
 }
 
 // Images with numbers for names are nothing special: a folder in the layout of TUM RGB-D that has lost its

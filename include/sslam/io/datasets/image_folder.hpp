@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,6 +50,44 @@ namespace sslam::io {
   if (const std::string kinds = image_kinds(images); !kinds.empty())
     throw Error(root.string() + ": holds images of several kinds side by side; say which are meant, as in '" +
                 (root / "NAMES").string() + "' with NAMES one of " + kinds);
+  return frames_from_images(root, images, frame_rate);
+}
+
+// A number as FFmpeg and OpenCV name it in a sequence of images: img_%06d.png.
+struct NumberPattern {
+  std::string before, after;
+  std::size_t width = 0;  // digits at least
+
+  [[nodiscard]] bool matches(std::string_view name) const {
+    if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after))
+      return false;
+    const std::string_view number = name.substr(before.size(), name.size() - before.size() - after.size());
+    return all_digits(number) && number.size() >= width &&
+           (number.size() == width || number[0] != '0' || number.size() == 1);
+  }
+};
+
+[[nodiscard]] inline std::optional<NumberPattern> number_pattern(const std::string& name) {
+  const std::size_t at = name.find('%');
+  const std::size_t end = at == std::string::npos ? at : name.find_first_not_of("0123456789", at + 1);
+  if (end == std::string::npos || (name[end] != 'd' && name[end] != 'u' && name[end] != 'i'))
+    return std::nullopt;
+  const std::string digits = name.substr(at + 1, end - at - 1);
+  const auto width = digits.empty() ? std::optional<std::size_t>(0) : parse_number<std::size_t>(digits);
+  if (!width) return std::nullopt;
+  return NumberPattern{name.substr(0, at), name.substr(end + 1), *width};
+}
+
+// The images whose names fit the pattern in the last part of the path.
+[[nodiscard]] inline Dataset read_numbered_images(const std::filesystem::path& path,
+                                                  const NumberPattern& pattern,
+                                                  double frame_rate = kDefaultFrameRate) {
+  const std::filesystem::path root = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const std::vector<std::filesystem::path> images =
+      list_files(root, [&pattern](const std::filesystem::path& name) {
+        return is_image_name(name) && pattern.matches(name.string());
+      });
+  if (images.empty()) throw Error(path.string() + ": no image matches");
   return frames_from_images(root, images, frame_rate);
 }
 

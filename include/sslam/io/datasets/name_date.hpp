@@ -108,6 +108,21 @@ struct Date {
   bool runs_on = false;  // the time follows without a gap
 };
 
+// 240501, and 240501123015. A year of two digits is one of these decades: other numbers look like it, too.
+[[nodiscard]] inline std::optional<Date> take_short_date(Scanner& scan) {
+  constexpr int kFirst = 10, kLast = 49;
+  const std::size_t digits = scan.digits();
+  Date date;
+  date.runs_on = digits == 12 || digits == 15 || digits == 18;
+  if (digits != 6 && !date.runs_on) return std::nullopt;
+  date.year = scan.number(2);
+  if (date.year < kFirst || date.year > kLast) return std::nullopt;
+  date.year += 2000;
+  date.month = scan.number(2);
+  date.day = scan.number(2);
+  return date;
+}
+
 [[nodiscard]] inline std::optional<Date> take_date(Scanner& scan) {
   Date date;
   const std::size_t digits = scan.digits();
@@ -170,11 +185,11 @@ inline void take_half_day(Scanner& scan, Time& time) {
 }
 
 // Of the date that begins at this place, if one does.
-[[nodiscard]] inline NameDate date_at(std::string_view stem, std::size_t at) {
+[[nodiscard]] inline NameDate date_at(std::string_view stem, std::size_t at, bool short_year) {
   namespace chrono = std::chrono;
   NameDate found;
   Scanner scan(stem, at);
-  const std::optional<Date> date = take_date(scan);
+  const std::optional<Date> date = short_year ? take_short_date(scan) : take_date(scan);
   if (!date) return found;
   const chrono::year_month_day day(chrono::year(date->year),
                                    chrono::month(static_cast<unsigned>(date->month)),
@@ -203,13 +218,14 @@ inline void take_half_day(Scanner& scan, Time& time) {
 }  // namespace name_date_detail
 
 // The first date with a time in the name without its extension; else what comes nearest to one.
-[[nodiscard]] inline NameDate date_in_name(std::string_view stem) {
+// `short_year`: its year has two digits.
+[[nodiscard]] inline NameDate date_in_name(std::string_view stem, bool short_year = false) {
   NameDate best;
   for (std::size_t at = 0; at < stem.size(); ++at) {
     const bool begins =
         name_date_detail::is_digit(stem[at]) && (at == 0 || !name_date_detail::is_digit(stem[at - 1]));
     if (!begins) continue;
-    NameDate found = name_date_detail::date_at(stem, at);
+    NameDate found = name_date_detail::date_at(stem, at, short_year);
     if (found.kind > best.kind) best = std::move(found);
     if (best.kind == DateKind::kDateAndTime) break;
   }

@@ -151,8 +151,12 @@ struct OneSecond {
     any = any || names.back().kind >= DateKind::kImpossible;
     all_dates = all_dates && names.back().kind >= DateKind::kDateAlone;
   }
-  const bool dated = any || all_dates;  // eight digits in some names need not be a date
+  bool dated = any || all_dates;  // eight digits in some names need not be a date
   if (!dated) names = times_in_names(stems);
+  if (names.empty()) {
+    names = name_times_detail::short_dates_in(stems);
+    dated = !names.empty();
+  }
   if (names.empty()) return {};
   const auto refuse = [dated](const std::string& why) {
     return NameDates{{}, std::string("names hold ") + (dated ? "dates" : "times") + ", but " + why};

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -49,20 +50,21 @@ struct SplitName {
   if (at != std::string::npos) {
     name.separator = stem[at];
     name.part = stem.substr(at + 1);
-    const bool known = name.separator == '.' || name.separator == '_' || name.separator == '-';
+    const bool known = std::string_view("._- ").find(name.separator) != std::string_view::npos;
     if (!known || !all_digits(name.part)) return std::nullopt;
   }
   if (name.whole.empty()) return std::nullopt;
   return name;
 }
 
-// Whole numbers.
-[[nodiscard]] inline std::optional<Numbers> stamps_of_numbers(std::vector<double> stamps) {
+// Whole numbers. `since_1970`: of no other clock, and not of seconds: ids and counters have ten digits, too.
+[[nodiscard]] inline std::optional<Numbers> stamps_of_numbers(std::vector<double> stamps, bool since_1970) {
   const StampUnit unit = stamp_unit_of(stamps, StampsOf::kOther);
   for (double& stamp : stamps) stamp /= unit.per_second;
   const double last = *std::max_element(stamps.begin(), stamps.end());
   constexpr double kLongestRun = 1e6;  // days, for a clock that begins with the recording
-  const bool sensible = is_epoch(last) || (!unit.is_seconds() && last < kLongestRun);
+  const bool fine = !unit.is_seconds();
+  const bool sensible = since_1970 ? fine && is_epoch(last) : is_epoch(last) || (fine && last < kLongestRun);
   return sensible ? std::optional(Numbers{std::move(stamps), unit}) : std::nullopt;
 }
 
@@ -85,12 +87,11 @@ struct SplitName {
 }
 
 // Nothing where the names are no numbers of a clock.
-[[nodiscard]] inline std::optional<Numbers> numbers_of_names(
-    const std::vector<std::filesystem::path>& images) {
-  if (images.empty()) return std::nullopt;
+[[nodiscard]] inline std::optional<Numbers> numbers_of_names(const std::vector<std::string>& stems,
+                                                             bool since_1970) {
   std::vector<SplitName> names;
-  for (const std::filesystem::path& image : images) {
-    auto name = split_name(image.stem().string());
+  for (const std::string& stem : stems) {
+    auto name = split_name(stem);
     if (!name || (!names.empty() && name->separator != names.front().separator)) return std::nullopt;
     names.push_back(std::move(*name));
   }
@@ -101,14 +102,44 @@ struct SplitName {
     // Two numbers that are no seconds of a clock may be anything, such as a run and a counter.
     if (separator != 0 && separator != '.' && !is_epoch(wholes.back())) return std::nullopt;
   }
-  if (separator == 0) return stamps_of_numbers(std::move(wholes));
+  if (separator == 0) return stamps_of_numbers(std::move(wholes), since_1970);
   if (separator != '.') return stamps_of_pairs(names);
   Numbers result;
   for (const SplitName& name : names)
     result.seconds.push_back(parse_number<double>(name.whole + "." + name.part).value_or(0));
   result.unit = stamp_unit_of(result.seconds, StampsOf::kOther);
   for (double& stamp : result.seconds) stamp /= result.unit.per_second;
+  if (since_1970 && !is_epoch(result.seconds.back())) return std::nullopt;
   return result;
+}
+
+// Takes what all names have in front of a number and behind the last one: of frame_1700000000033_left the
+// number is left. `at`: where the number begins in the first. False where the names differ there.
+[[nodiscard]] inline bool strip_names(std::vector<std::string>& stems, std::size_t at) {
+  const std::string before = stems.front().substr(0, at);
+  const std::string after = stems.front().substr(stems.front().find_last_of("0123456789") + 1);
+  for (std::string& stem : stems) {
+    if (stem.size() < before.size() + after.size() || !stem.starts_with(before) || !stem.ends_with(after))
+      return false;
+    stem = stem.substr(at, stem.size() - at - after.size());
+  }
+  return true;
+}
+
+// Stamps since 1970 with the same text before and behind them in all names.
+[[nodiscard]] inline NameStamps stamps_within_names(const std::vector<std::string>& stems) {
+  const std::string& first = stems.front();
+  for (std::size_t at = 0; at < first.size(); ++at) {
+    const auto digit = [&first](std::size_t i) { return all_digits({&first[i], 1}); };
+    if (!digit(at) || (at > 0 && digit(at - 1))) continue;
+    std::vector<std::string> numbers = stems;
+    if (!strip_names(numbers, at)) break;
+    if (auto found = numbers_of_names(numbers, true))
+      return {std::move(found->seconds),
+              "names hold stamps, such as " + numbers.front() + " of " + first +
+                  (found->unit.is_seconds() ? ": seconds since 1970" : ": " + unit_note(found->unit))};
+  }
+  return {};
 }
 
 }  // namespace name_stamps_detail
@@ -117,9 +148,14 @@ struct SplitName {
 [[nodiscard]] inline NameStamps stamps_of_names(const std::vector<std::filesystem::path>& images) {
   NameDates dates = dates_of_names(images);
   if (!dates.seconds.empty()) return {std::move(dates.seconds), std::move(dates.note)};
-  if (auto numbers = name_stamps_detail::numbers_of_names(images))
+  if (images.empty()) return {};
+  std::vector<std::string> stems;
+  for (const std::filesystem::path& image : images) stems.push_back(image.stem().string());
+  if (auto numbers = name_stamps_detail::numbers_of_names(stems, false))
     return {std::move(numbers->seconds),
             numbers->unit.is_seconds() ? std::string() : "names are " + unit_note(numbers->unit)};
+  if (NameStamps within = name_stamps_detail::stamps_within_names(stems); !within.seconds.empty())
+    return within;
   return {{}, std::move(dates.note)};
 }
 

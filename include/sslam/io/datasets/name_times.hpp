@@ -66,6 +66,43 @@ inline constexpr std::int64_t kDay = 86400;
   return minutes && hours && !even;
 }
 
+// Of 02_12_30_15 the last number: a second, or a counter behind one? `names` are read as the latter. A
+// counter goes on by one, or begins anew with each second, and then not just after 59.
+[[nodiscard]] inline bool count_behind_seconds(const std::vector<NameDate>& names) {
+  bool runs_on = true, restarts = true, after_59 = true;
+  int last = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& after = names[i].after;
+    const std::size_t digits = std::min(after.find_first_not_of("0123456789", 1), after.size());
+    const auto number = digits == 3 && after[0] != '.'
+                            ? parse_number<int>(std::string_view(after).substr(1, 2))
+                            : std::nullopt;
+    if (!number || *number > 59) return true;
+    if (i > 0) {
+      const bool next = *number == last + 1, anew = names[i].second != names[i - 1].second;
+      runs_on = runs_on && next;
+      restarts = restarts && (anew ? *number <= 1 : next);
+      after_59 = after_59 && (!anew || last == 59);
+    }
+    last = *number;
+  }
+  return runs_on || (restarts && !after_59);
+}
+
+// Dates with years of two digits, where all names have one. Behind such a number may be a counter: the times
+// must have hours, or jump as those of a clock.
+[[nodiscard]] inline std::vector<NameDate> short_dates_in(const std::vector<std::string>& stems) {
+  std::vector<NameDate> names;
+  bool hours = false;
+  for (const std::string& stem : stems) {
+    names.push_back(date_in_name(stem, true));
+    if (names.back().kind != DateKind::kDateAndTime) return {};
+    hours = hours || names.back().second % kDay >= 3600;
+  }
+  if (!hours && !jump_as_a_clock(names)) return {};
+  return names;
+}
+
 template <class Part>
 [[nodiscard]] bool differ(const std::vector<NameDate>& names, Part NameDate::*part) {
   return std::any_of(names.begin(), names.end(),
@@ -89,6 +126,7 @@ template <class Part>
     }
     take_parts(names);
     const bool digits_alone = names.front().form == "#";
+    if (!digits_alone && differ(names, &NameDate::second) && !count_behind_seconds(names)) continue;
     if (differ(names, &NameDate::second) && (!digits_alone || jump_as_a_clock(names))) return names;
     if (differ(names, &NameDate::fraction) && !digits_alone && of_one_second.empty())
       of_one_second = std::move(names);

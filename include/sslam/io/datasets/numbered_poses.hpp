@@ -3,6 +3,7 @@
 // 2012), and Replica as iMAP and NICE-SLAM rendered it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -25,6 +26,16 @@ inline constexpr double kReplicaFrameRate = 30, kKittiFrameRate = 10;
 [[nodiscard]] inline std::optional<std::size_t> number_of(const std::filesystem::path& image) {
   const std::string stem = image.stem().string();
   return parse_number<std::size_t>(stem.substr(stem.find_last_not_of("0123456789") + 1));
+}
+
+// Of poses that have the numbers of images in place of stamps: says how many images have none.
+inline void tell_missing_rows(Dataset& dataset, const std::filesystem::path& poses, std::size_t rows) {
+  const auto missing = std::count_if(dataset.frames.begin(), dataset.frames.end(),
+                                     [](const FrameEntry& frame) { return frame.truth < 0; });
+  if (missing > 0 && !dataset.ground_truth.empty())
+    dataset.warnings.push_back(poses.string() + ": its " + std::to_string(rows) + " rows leave " +
+                               std::to_string(missing) + " of " + std::to_string(dataset.frames.size()) +
+                               " images without ground truth; expected row N for the image numbered N");
 }
 
 [[nodiscard]] inline bool is_replica_image(const std::filesystem::path& name) {
@@ -64,7 +75,9 @@ inline constexpr double kReplicaFrameRate = 30, kKittiFrameRate = 10;
     PoseFile file = read_pose_file(poses, dataset.warnings);
     for (StampedPose& pose : file.trajectory)
       if (file.counted) pose.stamp /= kReplicaFrameRate;
+    const std::size_t rows = file.trajectory.size() + file.no_pose;
     attach_ground_truth(dataset, std::move(file.trajectory), poses);
+    if (file.no_pose == 0) tell_missing_rows(dataset, poses, rows);
   } catch (const Error& error) {
     leave_truth_out(dataset, error.what());
   }
@@ -125,10 +138,17 @@ inline constexpr double kReplicaFrameRate = 30, kKittiFrameRate = 10;
   const std::filesystem::path poses = find_kitti_poses(root);
   if (poses.empty()) return dataset;
   try {
-    PoseFile file = read_pose_file(poses, dataset.warnings, clock.empty() ? std::filesystem::path{} : times);
-    for (StampedPose& pose : file.trajectory)
-      if (file.counted) pose.stamp /= kKittiFrameRate;
+    PoseFile file = read_pose_file(poses, dataset.warnings, kNoTimes);
+    const std::size_t rows = file.trajectory.size() + file.no_pose;
+    const auto row_of = [](const StampedPose& pose) { return static_cast<std::size_t>(pose.stamp); };
+    if (file.counted && !clock.empty()) {
+      std::erase_if(file.trajectory, [&](const StampedPose& pose) { return row_of(pose) >= clock.size(); });
+      for (StampedPose& pose : file.trajectory) pose.stamp = clock[row_of(pose)];
+    } else if (file.counted) {
+      for (StampedPose& pose : file.trajectory) pose.stamp /= kKittiFrameRate;
+    }
     attach_ground_truth(dataset, std::move(file.trajectory), poses);
+    if (file.no_pose == 0) tell_missing_rows(dataset, poses, rows);
     if (images.filename() != "image_0")
       dataset.warnings.push_back(poses.string() + ": poses of image_0, taken for " +
                                  images.filename().string());

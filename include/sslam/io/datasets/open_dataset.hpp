@@ -21,9 +21,11 @@
 #include "sslam/io/datasets/seven_scenes.hpp"
 #include "sslam/io/datasets/transforms_folder.hpp"
 #include "sslam/io/datasets/tum.hpp"
+#include "sslam/io/datasets/unread_images.hpp"
 #include "sslam/io/datasets/video.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
+#include "sslam/io/files/video_content.hpp"
 
 namespace sslam::io {
 
@@ -113,10 +115,12 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) {
     if (has_wildcards(path.string())) return read_image_glob(path, options.frame_rate);
+    if (const auto pattern = number_pattern(path.filename().string()))
+      return read_numbered_images(path, *pattern, options.frame_rate);
     throw Error(path.string() + ": no such file or folder");
   }
   if (!std::filesystem::is_directory(status)) {
-    if (is_video_name(path)) return read_video(path);
+    if (std::filesystem::is_regular_file(status) && is_video_file(path)) return read_video(path);
     if (is_bag_name(path)) return unread_bag(path);
     if (is_image_name(path))
       throw Error(path.string() + ": is one image; a run needs many: name their folder, or a glob in quotes");
@@ -127,6 +131,8 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.matches(path)) return known.read(path, options);
   }
+  if (const std::string unread = unread_images(path); !unread.empty())
+    throw Error(path.string() + ": no dataset here: " + unread);
   const bool empty = std::filesystem::is_empty(path, ignored);
   const std::string nearest = nearest_layout(path), below = datasets_below(path);
   throw Error(path.string() + (empty ? ": the folder is empty" : ": no dataset here") +

@@ -26,18 +26,6 @@ inline constexpr double kTransformsDepthFactor = 1000;  // millimetres
   return is_transforms_text(text) && text.find("\"file_path\"") != std::string::npos;
 }
 
-// The file that is named, with the extension of an image where the name has none.
-[[nodiscard]] inline std::string find_transforms_image(const std::filesystem::path& root,
-                                                       const std::string& name) {
-  std::string file = file_list_detail::find_listed(root, name);
-  if (file_list_detail::is_file(file)) return file;
-  for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG", ".webp"})
-    if (const std::string longer = file_list_detail::find_listed(root, name + extension);
-        file_list_detail::is_file(longer))
-      return longer;
-  return file;
-}
-
 [[nodiscard]] inline Dataset read_transforms_folder(const std::filesystem::path& root, double frame_rate) {
   const std::filesystem::path file = root / "transforms.json";
   Dataset dataset;
@@ -50,7 +38,7 @@ inline constexpr double kTransformsDepthFactor = 1000;  // millimetres
     const TransformsFrame& named = transforms.frames[i];
     FrameEntry frame;
     frame.stamp = transforms.stamped ? named.stamp : static_cast<double>(i) / frame_rate;
-    frame.image = find_transforms_image(root, named.file);
+    frame.image = file_list_detail::find_image(root, named.file);
     if (!named.depth.empty()) {
       const std::string depth = file_list_detail::find_listed(root, named.depth);
       if (file_list_detail::is_file(depth)) frame.depth = depth;

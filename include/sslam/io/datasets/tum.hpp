@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -57,11 +56,11 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list,
 // The pairs that the TUM tools make of rgb.txt and depth.txt; empty: none. Those that count frames are
 // ICL-NUIM's.
 [[nodiscard]] inline std::filesystem::path find_associations(const std::filesystem::path& root) {
-  constexpr std::array kNames{"associations.txt", "association.txt", "associate.txt", "associated.txt"};
-  std::error_code ignored;
-  for (const char* name : kNames)
-    if (std::filesystem::is_regular_file(root / name, ignored) && !counts_frames(root / name))
-      return root / name;
+  const auto named = [](const std::filesystem::path& name) {
+    return name.extension() == ".txt" && lower_case(name.string()).find("assoc") != std::string::npos;
+  };
+  for (const std::filesystem::path& file : list_files(root, named))
+    if (!counts_frames(file)) return file;
   return {};
 }
 

@@ -47,13 +47,38 @@ template <class Change>
   return poses;
 }
 
+inline void reorder(SE3<double>& pose) {
+  pose.rotation = with_w_first(pose.rotation);
+}
+
+inline constexpr const char* kWFirst = "have w first: the rotations would agree; expected qx qy qz qw";
+
+// Where the camera hardly turns, some constant turn suits any order of the quaternions. The turn that suits
+// the positions does not.
+[[nodiscard]] inline std::string better_order(const PairedPoses& paired) {
+  constexpr double kBad = 0.5, kBetter = 0.25;  // radians; share of it that is left
+  const std::vector<Vec3<double>> truth = positions_of(paired.truth),
+                                  estimate = positions_of(paired.estimate);
+  if (on_a_line(truth) || on_a_line(estimate)) return {};
+  const SO3<double> turn = align(estimate, truth, Alignment::kSe3).rotation;
+  const auto error = [&turn](const PairedPoses& poses) {
+    return statistics_of(rotation_errors(poses, turn)).rmse;
+  };
+  const double as_read = error(paired);
+  if (as_read < kBad) return {};
+  const double of_estimate = error({paired.truth, changed(paired.estimate, reorder)}),
+               of_truth = error({changed(paired.truth, reorder), paired.estimate});
+  if (std::min(of_estimate, of_truth) >= kBetter * as_read) return {};
+  return std::string(of_estimate < of_truth ? "the estimate's" : "the ground truth's") +
+         " quaternions seem to " + kWFirst;
+}
+
 // How another reading of either file's rotations would make them agree; empty: none does.
 [[nodiscard]] inline std::string better_reading(const PairedPoses& paired) {
   constexpr double kBad = 0.1, kBetter = 0.25;  // radians; share of it that is left
-  const auto reorder = [](SE3<double>& pose) { pose.rotation = with_w_first(pose.rotation); };
   const auto invert = [](SE3<double>& pose) { pose = pose.inverse(); };
   const double as_read = rotation_rmse(paired);
-  if (as_read < kBad) return {};
+  if (as_read < kBad) return better_order(paired);
   double least = kBetter * as_read;
   std::string best;
   const auto consider = [&](const PairedPoses& other, std::string meaning) {
@@ -62,7 +87,7 @@ template <class Change>
     least = rmse;
     best = std::move(meaning);
   };
-  const std::string order = "have w first: the rotations would agree; expected qx qy qz qw";
+  const std::string order = kWFirst;
   consider({paired.truth, changed(paired.estimate, reorder)}, "the estimate's quaternions seem to " + order);
   consider({changed(paired.truth, reorder), paired.estimate},
            "the ground truth's quaternions seem to " + order);

@@ -65,12 +65,25 @@ struct Evaluation {
   return errors;
 }
 
+// Says from when to when the stamps of both go: where few agree, these tell why.
+[[nodiscard]] inline std::string stamp_ranges(const Trajectory& truth, const Trajectory& estimate) {
+  const auto range = [](const Trajectory& poses) {
+    return exact_decimal(poses.front().stamp, 0) + " to " + exact_decimal(poses.back().stamp, 0);
+  };
+  return "the stamps of the ground truth go from " + range(truth) + ", those of the estimate from " +
+         range(estimate);
+}
+
 // Throws Error when the two do not overlap or cannot be aligned.
 [[nodiscard]] inline Evaluation evaluate(const Trajectory& truth, const Trajectory& estimate,
                                          const EvaluationOptions& options = {}) {
   const PairedPoses paired = pair_poses(truth, estimate, options.max_difference);
   const std::vector<Vec3<double>> true_positions = positions_of(paired.truth);
   const std::vector<Vec3<double>> positions = positions_of(paired.estimate);
+  constexpr std::size_t kFewest = 3;
+  if (options.alignment != Alignment::kNone && positions.size() < kFewest)
+    throw Error("alignment needs at least 3 pairs of poses, found " + std::to_string(positions.size()) +
+                " within " + exact_decimal(options.max_difference, 0) + ": " + stamp_ranges(truth, estimate));
   Evaluation result;
   result.options = options;
   result.poses = estimate.size();

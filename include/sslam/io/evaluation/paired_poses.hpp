@@ -32,7 +32,8 @@ struct PairedPoses {
     throw Error("no overlap between ground truth (stamps " + exact_decimal(truth.front().stamp) + " to " +
                 exact_decimal(truth.back().stamp) + ") and estimate (" +
                 exact_decimal(estimate.front().stamp) + " to " + exact_decimal(estimate.back().stamp) +
-                ") within " + exact_decimal(max_difference, 0));
+                ") within " + exact_decimal(max_difference, 0) +
+                ": another clock (--offset, --find-offset), or another recording?");
   }
   return paired;
 }

@@ -12,6 +12,16 @@
 
 namespace sslam::io {
 
+// Whether one clock may have both: recordings of one walk last about as long, and stamps that begin with 0 in
+// all units come together by chance.
+[[nodiscard]] inline bool last_alike(std::span<const double> a, std::span<const double> b) {
+  constexpr double kAlike = 20;  // an estimate may be of a part
+  const auto [a_first, a_last] = std::minmax_element(a.begin(), a.end());
+  const auto [b_first, b_last] = std::minmax_element(b.begin(), b.end());
+  const double a_span = *a_last - *a_first, b_span = *b_last - *b_first;
+  return a_span < kAlike * b_span && b_span < kAlike * a_span;
+}
+
 // The unit in which `stamps` fit `reference`, which is in seconds: another than seconds only where it brings
 // far more of them together.
 [[nodiscard]] inline StampUnit unit_on_clock(std::span<const double> reference,
@@ -24,7 +34,7 @@ namespace sslam::io {
     std::vector<double> seconds(stamps.begin(), stamps.end());
     for (double& stamp : seconds) stamp /= unit.per_second;
     const std::size_t pairs = associate(reference, seconds, max_difference).size();
-    if (pairs < kFewest || pairs < kMoreOften * most) continue;
+    if (pairs < kFewest || pairs < kMoreOften * most || !last_alike(reference, seconds)) continue;
     best = unit;
     most = pairs;
   }

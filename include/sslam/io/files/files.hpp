@@ -33,9 +33,10 @@ namespace sslam::io {
 }
 
 [[nodiscard]] inline bool is_video_name(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 17> kVideos{".mp4",  ".avi",  ".mkv", ".mov", ".webm", ".m4v",
-                                                     ".mpeg", ".mpg",  ".ogv", ".wmv", ".3gp",  ".ts",
-                                                     ".mts",  ".m2ts", ".gif", ".flv", ".apng"};
+  constexpr std::array<std::string_view, 25> kVideos{
+      ".mp4",  ".avi", ".mkv", ".mov", ".webm", ".m4v", ".mpeg", ".mpg",  ".ogv",
+      ".wmv",  ".3gp", ".ts",  ".mts", ".m2ts", ".gif", ".flv",  ".apng", ".h264",
+      ".hevc", ".vob", ".y4m", ".asf", ".3g2",  ".mxf", ".m2v"};
   return has_extension(path, kVideos);
 }
 
@@ -140,6 +141,11 @@ template <class Predicate>
   }
   sort_by_name(files);
   return files;
+}
+
+// Whether any file lies in a folder that is there.
+[[nodiscard]] inline bool holds_files(const std::filesystem::path& folder) {
+  return !list_files(folder, [](const auto&) { return true; }).empty();
 }
 
 // Folders in a folder, without hidden ones. Empty when there is no such folder.

@@ -104,6 +104,15 @@ template <class Number>
   return value;
 }
 
+// The same, also with a decimal comma, which a cell has only where semicolons separate.
+[[nodiscard]] inline std::optional<double> parse_decimal(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return parse_number<double>(text);
+  std::string plain(text);
+  plain[comma] = '.';
+  return text.find('.') == std::string_view::npos ? parse_number<double>(plain) : std::nullopt;
+}
+
 // One more item of "a, b, c".
 inline void add_to_list(std::string& list, std::string_view item) {
   if (!list.empty()) list += ", ";

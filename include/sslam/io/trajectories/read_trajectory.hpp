@@ -15,13 +15,16 @@
 #include <utility>
 #include <vector>
 
+#include "sslam/core/file_kind.hpp"
 #include "sslam/io/files/bad_entries.hpp"
+#include "sslam/io/files/decimal_commas.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/stamp_unit.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/trajectories/pose_columns.hpp"
 #include "sslam/io/trajectories/pose_row.hpp"
+#include "sslam/io/trajectories/pose_times.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/io/trajectories/transforms.hpp"
 
@@ -116,32 +119,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   return RowLayout::kWFirst;
 }
 
-// Where the times of a KITTI file may lie; empty: nowhere.
-[[nodiscard]] inline std::filesystem::path find_times(const std::filesystem::path& poses) {
-  const std::filesystem::path folder = poses.parent_path();
-  const std::string stem = poses.stem().string();
-  std::error_code ignored;
-  for (const std::filesystem::path& file :
-       {folder / (stem + "_times.txt"), folder / "times.txt", folder / "../sequences" / stem / "times.txt"})
-    if (file != poses && std::filesystem::is_regular_file(file, ignored)) return file;
-  return {};
-}
-
 }  // namespace trajectory_detail
-
-// The first column of a list of times, in its own unit.
-[[nodiscard]] inline std::vector<double> read_times(const std::filesystem::path& file) {
-  const std::string text = read_plain_text(file);
-  std::vector<double> times;
-  for (const TextRow& row : split_rows(text)) {
-    const auto time = parse_number<double>(row.cells.front());
-    if (!time || !std::isfinite(*time))
-      throw Error(file.string() + ": line " + std::to_string(row.line) + ": expected a time, found '" +
-                  std::string(row.cells.front()) + "'");
-    times.push_back(*time);
-  }
-  return times;
-}
 
 // transforms.json: without timestamps its files in their natural order have the times, or are counted.
 [[nodiscard]] inline PoseFile read_transforms_poses(const std::filesystem::path& path, Warnings& warnings,
@@ -182,7 +160,9 @@ inline void join_matrices(std::vector<TextRow>& rows) {
 // changed. `times`: of a file without stamps; empty: looked for beside it.
 [[nodiscard]] inline PoseFile read_pose_file(const std::filesystem::path& path, Warnings& warnings,
                                              std::filesystem::path times = {}) {
-  const std::string text = read_plain_text(path);
+  const std::string text = with_decimal_points(read_plain_text(path));
+  if (const std::string kind = file_kind(text); !kind.empty())
+    throw Error(path.string() + ": " + kind + "; expected rows of poses in plain text");
   if (is_transforms_text(text)) return read_transforms_poses(path, warnings, std::move(times));
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
@@ -199,7 +179,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   std::vector<double> clock;
   if (!has_stamp(layout)) {
     if (times.empty()) times = trajectory_detail::find_times(path);
-    if (!times.empty()) clock = read_times(times);
+    if (!times.empty() && times != kNoTimes) clock = read_times(times);
     result.counted = clock.empty();
     if (!result.counted && clock.size() != rows.size())
       throw Error(times.string() + ": has " + std::to_string(clock.size()) + " times for the " +

@@ -9,16 +9,21 @@
 #include <opencv2/core/persistence.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "sslam/core/error.hpp"
+#include "sslam/core/file_kind.hpp"
+#include "sslam/core/plain_text.hpp"
 #include "sslam/core/text_tree.hpp"
+#include "sslam/opencv/camera/assigned_tree.hpp"
 #include "sslam/opencv/camera/camera_rows.hpp"
 #include "sslam/opencv/camera/camera_trees.hpp"
+#include "sslam/opencv/camera/metashape.hpp"
 
 namespace sslam {
 namespace detail {
 
-// With plain line ends, and without the mark that some editors put first.
+// As UTF-8 with plain line ends.
 [[nodiscard]] inline std::string read_camera_text(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw Error(path.string() + ": no such camera file");
@@ -30,10 +35,12 @@ namespace detail {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file) throw Error(path.string() + ": cannot open this camera file");
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  if (const std::string other = file_kind(text); !other.empty())
+    throw Error(path.string() + ": " + other +
+                "; expected a calibration in plain text, such as a row 'fx fy cx cy k1 k2 p1 p2 k3'");
+  text = plain_text(std::move(text));
   if (text.find('\0') != std::string::npos)
-    throw Error(path.string() + ": is no text, or not UTF-8; expected a camera file in plain text");
-  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+    throw Error(path.string() + ": is no text; expected a camera file in plain text");
   return text;
 }
 
@@ -69,16 +76,22 @@ namespace detail {
         text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
     return tree_of(storage.root());
   } catch (const cv::Exception& error) {
-    throw Error(file + ": no XML that OpenCV reads: " + error.err.substr(0, error.err.find('\n')));
+    throw Error(file +
+                ": no calibration in XML; expected that of OpenCV (<opencv_storage>) or of Metashape (" +
+                "<calibration>): " + error.err.substr(0, error.err.find('\n')));
   }
 }
 
 [[nodiscard]] inline CameraFile read_any_camera(const std::string& text, const std::string& source) {
   const auto first = text.find_first_not_of(" \t\r\n");
   try {
-    if (first != std::string::npos && text[first] == '<')
+    if (first != std::string::npos && text[first] == '<') {
+      if (const std::string_view element = metashape_element(text); !element.empty())
+        return read_metashape(element, source);
       return read_camera_tree(parse_xml(text, source), source);
+    }
     if (auto rows = read_camera_rows(text, source)) return *rows;
+    if (is_assigned(text)) return read_camera_tree(parse_assigned(text, source), source);
     return read_camera_tree(TextTree::parse(text, source), source);
   } catch (const Error& error) {
     std::string line = error.what();  // keys and values in quotes may span lines

@@ -47,6 +47,26 @@ using WordRows = std::vector<std::vector<std::string>>;
   return rows;
 }
 
+// Whether numbers are written as 500,5: blanks or semicolons separate them, and each comma is between two
+// digits.
+[[nodiscard]] inline bool has_decimal_commas(const std::string& line) {
+  std::string bare = line.substr(0, line.find('#'));
+  for (char& c : bare)
+    if (std::string_view(";[]").find(c) != std::string_view::npos) c = ' ';
+  const std::vector<std::string> cells = words_of(bare);
+  bool any = false;
+  for (std::string cell : cells) {
+    const std::size_t comma = cell.find(',');
+    if (comma != std::string::npos) {
+      if (comma == 0 || comma + 1 == cell.size() || cell.find('.') != std::string::npos) return false;
+      cell[comma] = '.';
+      any = true;
+    }
+    if (!is_number(cell)) return false;
+  }
+  return any && cells.size() > 1;
+}
+
 [[nodiscard]] inline std::vector<double> row_numbers(const CameraKeys& keys,
                                                      const std::vector<std::string>& row, std::size_t from) {
   std::vector<double> values;
@@ -88,6 +108,15 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   return 0;
 }
 
+// Of several cameras: "; another is of 320x240"; empty where all have one size.
+[[nodiscard]] inline std::string other_size(const WordRows& rows) {
+  for (const std::vector<std::string>& row : rows)
+    if (row.size() > 3 && (row[2] != rows.front()[2] || row[3] != rows.front()[3]))
+      return " (" + rows.front()[2] + "x" + rows.front()[3] + "; another is of " + row[2] + "x" + row[3] +
+             ": for its images, keep its row alone)";
+  return {};
+}
+
 // CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]. The first pixel's centre is (0.5, 0.5).
 [[nodiscard]] inline CameraFile read_colmap(const CameraKeys& keys, const WordRows& rows) {
   CameraFile file;
@@ -106,7 +135,8 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   set_pinhole(keys, v[2], one_focal ? v[2] : v[3], v[first - 2] - 0.5, v[first - 1] - 0.5, file);
   std::vector<double> lens(v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
   set_lens(keys, model, lens, file);
-  if (rows.size() > 1) file.notes.push_back(keys.file() + ": has several cameras; the first is taken");
+  if (rows.size() > 1)
+    file.notes.push_back(keys.file() + ": has several cameras; the first is taken" + other_size(rows));
   return file;
 }
 
@@ -139,6 +169,15 @@ inline int row_pixels(const CameraKeys& keys, double value) {
                                                                 const std::string& path) {
   const WordRows rows = word_rows(text);
   if (rows.empty()) return std::nullopt;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (has_decimal_commas(line))
+      throw Error(path + ": line " + std::to_string(number) + ": '" + line.substr(0, 60) +
+                  "' has decimal commas; expected decimal points");
+    if (words_of(line).size() > 20) break;  // no row of a calibration
+  }
   const TextNode none;
   const CameraKeys keys(none, path);
   const auto numeric = [](const std::vector<std::string>& row, std::size_t from) {

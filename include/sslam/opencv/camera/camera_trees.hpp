@@ -8,13 +8,41 @@
 
 #include "sslam/opencv/camera/matrix_cameras.hpp"
 #include "sslam/opencv/camera/named_cameras.hpp"
+#include "sslam/opencv/camera/photo_cameras.hpp"
+#include "sslam/opencv/camera/slam_cameras.hpp"
 
 namespace sslam {
 namespace detail {
 
+// The one section that holds a camera of named numbers; null: none. Throws Error where several do.
+[[nodiscard]] inline const TextNode* only_camera_section(const CameraKeys& keys) {
+  const TextNode* found = nullptr;
+  std::string names;
+  for (std::size_t i = 0; i < keys.map().keys.size(); ++i) {
+    if (!keys.map().items[i].has("fx") || !keys.map().items[i].has("cx")) continue;
+    names += (found == nullptr ? "" : ", ") + keys.map().keys[i];
+    if (found != nullptr && names.size() > 200) break;
+    found = &keys.map().items[i];
+  }
+  if (found != nullptr && names.find(", ") != std::string::npos)
+    keys.fail("has several cameras: " + names + "; expected one: keep that of the images alone");
+  return found;
+}
+
 [[nodiscard]] inline CameraFile read_camera_tree(const TextNode& root, const std::string& file,
                                                  const std::string& where = {}) {
   const CameraKeys keys(root, file, where);
+  if (where.empty()) {
+    if (keys.has("model_type")) return read_vins(keys);
+    if (keys.has("cam0_calib")) refuse_vins_settings(keys);
+    if (keys.has("value0")) return read_basalt(keys);
+    if (is_opensfm(root)) return read_opensfm(keys);
+    if (lists_cameras(root)) return read_listed_cameras(keys);
+    if (const TextNode* const list = root.find("cameras");
+        list != nullptr && !list->items.empty() && list->items.front().has("principal_point"))
+      return read_okvis(keys);
+    if (keys.has("fx_color")) return read_scannet_scene(keys);
+  }
   const auto starts = [&root](std::string_view prefix) {
     return std::any_of(root.keys.begin(), root.keys.end(),
                        [prefix](const std::string& key) { return key.starts_with(prefix); });
@@ -46,6 +74,9 @@ namespace detail {
     for (const char* part : {"cam0", "color", "rgb", "camera", "Camera", "intrinsics", "intrinsic", "cam"})
       if (const TextNode* const node = root.find(part); node != nullptr && node->kind == TextNode::Kind::kMap)
         return read_camera_tree(*node, file, std::string(part) + ".");
+  if (where.empty())
+    if (const TextNode* const section = only_camera_section(keys); section != nullptr)
+      return read_camera_tree(*section, file, "below a section: ");
   std::string found;
   for (std::size_t i = 0; i < std::min<std::size_t>(root.keys.size(), 5); ++i)
     found += (i > 0 ? ", " : "") + root.keys[i];

@@ -20,6 +20,9 @@ inline void set_matrix(const CameraKeys& keys, std::string_view key, const std::
   if (m.size() != 9 && m.size() != 12 && m.size() != 16)
     keys.fail(keys.where() + std::string(key) + " has " + std::to_string(m.size()) +
               " numbers; expected the 9 of a camera matrix: fx 0 cx 0 fy cy 0 0 1");
+  if (std::all_of(m.begin(), m.end(), [](double value) { return value == 0; }))
+    keys.fail(keys.where() + std::string(key) +
+              " is all 0, as of a camera that was never calibrated; expected fx 0 cx 0 fy cy 0 0 1");
   const bool by_columns = m.size() == 9 && m[2] == 0 && m[5] == 0 && (m[6] != 0 || m[7] != 0);
   file.camera.pinhole = {m[0], m[n + 1], by_columns ? m[6] : m[2], by_columns ? m[7] : m[n + 2]};
   const Pinhole<double>& p = file.camera.pinhole;

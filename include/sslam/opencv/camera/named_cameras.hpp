@@ -168,6 +168,17 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
   keys.fail(keys.where() + "fl_x is missing; expected " + kFocal);
 }
 
+// The scene files of ScanNet, beside their recordings.
+inline CameraFile read_scannet_scene(const CameraKeys& keys) {
+  CameraFile file;
+  file.camera.width = keys.optional_pixels({"colorWidth"});
+  file.camera.height = keys.optional_pixels({"colorHeight"});
+  file.camera.pinhole = {keys.required_positive({"fx_color"}, kFocal),
+                         keys.required_positive({"fy_color"}, kFocal), keys.required({"mx_color"}, kCentre),
+                         keys.required({"my_color"}, kCentre)};
+  return file;
+}
+
 // fx, fy and cx, cy or ppx, ppy by these names: RealSense, Replica, NICE-SLAM, and others of their own.
 inline CameraFile read_plain_names(const CameraKeys& keys) {
   CameraFile file;

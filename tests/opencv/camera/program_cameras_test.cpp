@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Camera files of other SLAM and photogrammetry programs, of other encodings, and files that are no camera.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "sslam/opencv/camera/camera_file.hpp"
+#include "support/catch.hpp"
+#include "support/scratch_folder.hpp"
+
+using namespace sslam;
+
+namespace program_cameras_test {
+namespace {
+
+CameraFile read_as(const std::string& text) {
+  const testing::ScratchFolder folder;
+  return read_wide_camera_file(folder.write("camera", text));
+}
+
+void check_plane(const CameraFile& file, const Pinhole<double>& expected, int width, int height) {
+  const Pinhole<double>& p = file.camera.pinhole;
+  INFO(p.fx << " " << p.fy << " " << p.cx << " " << p.cy);
+  const double off = std::max({std::abs(p.fx - expected.fx), std::abs(p.fy - expected.fy),
+                               std::abs(p.cx - expected.cx), std::abs(p.cy - expected.cy)});
+  CHECK(off < 1e-9);
+  CHECK(file.camera.width == width);
+  CHECK(file.camera.height == height);
+}
+
+void check_lens(const CameraFile& file, const RadTan<double>& expected) {
+  const RadTan<double>& lens = file.camera.distortion;
+  CHECK(lens.k1 == expected.k1);
+  CHECK(lens.k2 == expected.k2);
+  CHECK(lens.p1 == expected.p1);
+  CHECK(lens.p2 == expected.p2);
+  CHECK(lens.k3 == expected.k3);
+}
+
+void check_refusal(const std::string& text, const std::string& part) {
+  std::string complaint;
+  try {
+    (void)read_as(text);
+  } catch (const Error& error) {
+    complaint = error.what();
+  }
+  INFO(complaint);
+  CHECK(complaint.find(part) != std::string::npos);
+  CHECK(complaint.find('\n') == std::string::npos);
+}
+
+// Two bytes a letter, the low one first.
+std::string utf16(std::string_view text) {
+  std::string wide = "\xff\xfe";
+  for (const char c : text) wide += {c, '\0'};
+  return wide;
+}
+
+constexpr Pinhole<double> kPlane{461.5, 460.25, 363, 248.5};
+
+}  // namespace
+
+TEST_CASE("A camera file in UTF-16 is read") {
+  const std::string text = "fx: 461.5\r\nfy: 460.25\r\ncx: 363\r\ncy: 248.5\r\nwidth: 752\r\nheight: 480\r\n";
+  check_plane(read_as(utf16(text)), kPlane, 752, 480);
+  check_plane(read_as(utf16(text).substr(2)), kPlane, 752, 480);
+}
+
+TEST_CASE("Camera files of VINS-Fusion: pinhole, fisheye, mirror") {
+  const std::string head = "%YAML:1.0\n---\ncamera_name: left\nimage_width: 752\nimage_height: 480\n";
+  const CameraFile pinhole = read_as(
+      head +
+      "model_type: PINHOLE\ndistortion_parameters:\n   k1: -0.25\n   k2: 0.125\n   p1: 0.001\n"
+      "   p2: 0.002\nprojection_parameters:\n   fx: 461.5\n   fy: 460.25\n   cx: 363\n   cy: 248.5\n");
+  check_plane(pinhole, kPlane, 752, 480);
+  check_lens(pinhole, {-0.25, 0.125, 0.001, 0.002, 0});
+  const CameraFile mirror =
+      read_as(head +
+              "model_type: MEI\nmirror_parameters:\n   xi: 0.9\ndistortion_parameters:\n   k1: -0.1\n"
+              "   k2: 0\n   p1: 0\n   p2: 0\nprojection_parameters:\n   gamma1: 461.5\n   gamma2: 460.25\n"
+              "   u0: 363\n   v0: 248.5\n");
+  check_plane(mirror, kPlane, 752, 480);
+  REQUIRE(mirror.wide);
+  CHECK(mirror.wide->model == WideModel::kOmni);
+  CHECK(mirror.wide->k[0] == 0.9);
+  CHECK(mirror.wide->k[1] == -0.1);
+  const CameraFile fisheye =
+      read_as(head +
+              "model_type: KANNALA_BRANDT\nprojection_parameters:\n   k2: 0.5\n   k3: 0.1\n   k4: 0\n"
+              "   k5: 0\n   mu: 161.5\n   mv: 160.25\n   u0: 363\n   v0: 248.5\n");
+  REQUIRE(fisheye.wide);
+  CHECK(fisheye.wide->k[0] == 0.5);
+  check_refusal(head + "model_type: SCARAMUZZA\nprojection_parameters:\n   p0: 1\n", "SCARAMUZZA");
+  check_refusal("%YAML:1.0\nimu: 1\ncam0_calib: \"left.yaml\"\n", "its camera file is left.yaml");
+}
+
+TEST_CASE("Camera files of OKVIS and Basalt") {
+  const CameraFile okvis = read_as(
+      "%YAML:1.0\ncameras:\n     - {T_SC:\n        [1, 0, 0, 0,\n         0, 1, 0, 0],\n"
+      "        image_dimension: [752, 480],\n        distortion_coefficients: [-0.25, 0.125, 0.001, 0.002],\n"
+      "        distortion_type: radialtangential,\n        focal_length: [461.5, 460.25],\n"
+      "        principal_point: [363, 248.5]}\n     - {image_dimension: [752, 480]}\n");
+  check_plane(okvis, kPlane, 752, 480);
+  check_lens(okvis, {-0.25, 0.125, 0.001, 0.002, 0});
+  REQUIRE(okvis.notes.size() == 1);
+  CHECK(okvis.notes[0].find("has 2 cameras; the first is taken") != std::string::npos);
+  const CameraFile basalt = read_as(
+      "{\"value0\": {\"intrinsics\": [{\"camera_type\": \"ds\", \"intrinsics\": {\"fx\": 161.5, \"fy\": "
+      "160.25,"
+      " \"cx\": 363, \"cy\": 248.5, \"xi\": -0.25, \"alpha\": 0.5}}], \"resolution\": [[752, 480]]}}");
+  check_plane(basalt, {161.5, 160.25, 363, 248.5}, 752, 480);
+  REQUIRE(basalt.wide);
+  CHECK(basalt.wide->model == WideModel::kDoubleSphere);
+  CHECK(basalt.wide->k[1] == 0.5);
+}
+
+TEST_CASE("Camera files of OpenSfM and OpenDroneMap are parts of the image's longer side") {
+  const CameraFile file = read_as(
+      "{\"v2 maker 4000 3000 brown 0.6\": {\"projection_type\": \"brown\", \"width\": 4000, \"height\": 3000,"
+      " \"focal_x\": 0.5, \"focal_y\": 0.75, \"c_x\": 0.0025, \"c_y\": -0.0025, \"k1\": 0.125, \"k2\": -0.25,"
+      " \"p1\": 0.001, \"p2\": 0.002, \"k3\": 0.0625}}");
+  check_plane(file, {2000, 3000, 2009.5, 1489.5}, 4000, 3000);
+  check_lens(file, {0.125, -0.25, 0.001, 0.002, 0.0625});
+  check_refusal("{\"a\": {\"projection_type\": \"spherical\", \"width\": 8, \"height\": 4, \"focal\": 1}}",
+                "'spherical'");
+}
+
+TEST_CASE("Camera files of Meshroom and OpenMVG") {
+  const std::string meshroom =
+      "{\"views\": [], \"intrinsics\": [{\"width\": \"1920\", \"height\": \"1080\", \"sensorWidth\": \"36\","
+      " \"type\": \"radial3\", \"distortionParams\": [\"0.125\", \"-0.25\", \"0.0625\"],";
+  const std::string absolute = "\"pxFocalLength\": \"1500.5\", \"principalPoint\": [\"961\", \"541.5\"]}]}";
+  const std::string relative = "\"focalLength\": \"27\", \"principalPoint\": [\"1\", \"1.5\"]}]}";
+  check_plane(read_as(meshroom + absolute), {1500.5, 1500.5, 961, 541.5}, 1920, 1080);
+  check_plane(read_as(meshroom + relative), {1440, 1440, 961, 541.5}, 1920, 1080);
+  check_lens(read_as(meshroom + relative), {0.125, -0.25, 0, 0, 0.0625});
+  const CameraFile openmvg = read_as(
+      "{\"intrinsics\": [{\"key\": 0, \"value\": {\"polymorphic_name\": \"pinhole_brown_t2\", "
+      "\"ptr_wrapper\":"
+      " {\"data\": {\"width\": 1920, \"height\": 1080, \"focal_length\": 1500.5, \"principal_point\":"
+      " [961, 541.5], \"disto_t2\": [0.125, -0.25, 0.0625, 0.001, 0.002]}}}}]}");
+  check_plane(openmvg, {1500.5, 1500.5, 961, 541.5}, 1920, 1080);
+  check_lens(openmvg, {0.125, -0.25, 0.001, 0.002, 0.0625});
+}
+
+TEST_CASE("Camera files of Metashape count from the middle, and have p1 and p2 in the other order") {
+  const std::string numbers =
+      "<f>3600.5</f><cx>-12.5</cx><cy>8.25</cy><k1>0.125</k1><k2>-0.25</k2>"
+      "<k3>0.0625</k3><p1>0.001</p1><p2>0.002</p2>";
+  const CameraFile alone = read_as(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<calibration>\n<projection>frame</projection>"
+      "<width>4000</width><height>3000</height>" +
+      numbers + "</calibration>\n");
+  check_plane(alone, {3600.5, 3600.5, 1987, 1507.75}, 4000, 3000);
+  check_lens(alone, {0.125, -0.25, 0.002, 0.001, 0.0625});
+  const CameraFile whole = read_as(
+      "<document><sensor><calibration type=\"frame\" class=\"initial\"><resolution width=\"4000\" "
+      "height=\"3000\"/><f>3000</f></calibration><calibration type=\"frame\" class=\"adjusted\">"
+      "<resolution width=\"4000\" height=\"3000\"/>" +
+      numbers + "</calibration></sensor></document>");
+  check_plane(whole, {3600.5, 3600.5, 1987, 1507.75}, 4000, 3000);
+  check_refusal("<calibration><width>40</width><height>30</height><f>36</f><k4>0.1</k4></calibration>",
+                "calibration.k4");
+}
+
+TEST_CASE("Rows of 'key = value', also below a section") {
+  const std::string numbers = "fx = 461.5\nfy=460.25  # of the left one\ncx = \"363\"\ncy = 248.5\n";
+  check_plane(read_as(numbers), kPlane, 0, 0);
+  check_plane(read_as("; the left camera\n[LEFT]\n" + numbers + "width = 752\nheight = 480\n"), kPlane, 752,
+              480);
+  check_refusal("[LEFT]\n" + numbers + "[RIGHT]\n" + numbers, "has several cameras: LEFT, RIGHT");
+  check_refusal("[LEFT]\nfx = 461.5\nfx = 462\n", "line 3: fx is given a second time");
+  check_plane(read_as("colorWidth = 752\ncolorHeight = 480\nfx_color = 461.5\nfy_color = 460.25\n"
+                      "mx_color = 363\nmy_color = 248.5\nsceneType = Office\n"),
+              kPlane, 752, 480);
+}
+
+TEST_CASE("Of COLMAP's cameras the first is taken, and another size is told") {
+  const CameraFile file = read_as(
+      "# cameras\n1 PINHOLE 752 480 461.5 460.25 363.5 249\n"
+      "2 PINHOLE 320 240 200 200 160 120\n");
+  check_plane(file, kPlane, 752, 480);
+  REQUIRE(file.notes.size() == 1);
+  CHECK(file.notes[0].find("the first is taken (752x480; another is of 320x240: ") != std::string::npos);
+}
+
+TEST_CASE("Files that hold no camera are told by their kind") {
+  using namespace std::string_literals;
+  check_refusal("PK\3\4\0\0abc"s, "NumPy's .npz");
+  check_refusal("\x80\4\x95\0\0"s, "pickled by Python");
+  check_refusal("\xff\xd8\xff\xe0\0\x10JFIF\0"s, "is an image");
+  check_refusal("version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "git lfs pull");
+  check_refusal("<!DOCTYPE html>\n<html><body>Not Found</body></html>\n", "is a web page");
+  check_refusal("500,5 501,25 320,5 240,75\n", "line 1: '500,5 501,25 320,5 240,75' has decimal commas");
+  check_refusal("K: [0, 0, 0, 0, 0, 0, 0, 0, 0]\n", "never calibrated");
+}
+
+}  // namespace program_cameras_test
