@@ -28,7 +28,7 @@ template <Scalar S>
 struct LoopClosingOptions {
   std::size_t place_keyframes = 10;  // around the place, whose landmarks are looked for again
   S in_place = S(0.8);  // share of the place's landmarks that are where the map has them: nothing has drifted
-  int trials = 10;      // of places that were met once, after the last frame; each adjusts the map twice
+  int trials = 10;      // of places that were met once, after the last frame; each copies the map
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -94,11 +94,11 @@ class LoopClosing {
   // How far the map has the place from where the keyframe sees it. A small drift needs no second sighting.
   [[nodiscard]] Drift drift(const Map<S>& map, KeyframeId id, const Loop<S>& loop) const {
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    if (share_in_place(map, keyframe, loop, fusion.options.point_radius) >= options.in_place)
+    if (share_in_place<S>(map, keyframe, loop, fusion.options.point_radius) >= options.in_place)
       return Drift::kInPlace;
     const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
-    return share_in_place(map, keyframe, loop, nearby.reach) < nearby.min_share ? Drift::kLarge
-                                                                                : Drift::kSmall;
+    return share_in_place<S>(map, keyframe, loop, nearby.reach) < nearby.min_share ? Drift::kLarge
+                                                                                   : Drift::kSmall;
   }
 
   LoopAnswer<S> close(Map<S>& map, KeyframeId id, const Loop<S>& loop, bool drifted) {
@@ -110,22 +110,6 @@ class LoopClosing {
     }
     adjustment.optimise_all(map);
     return {true, new_from_old_};
-  }
-
-  // Of the landmarks of the place that the keyframe sees, how many lie within `reach`, in the feature's
-  // sigma, of where the map has them.
-  [[nodiscard]] S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& loop,
-                                 S reach) const {
-    int seen = 0, near = 0;
-    for (std::size_t i = 0; i < loop.point_landmarks.size(); ++i) {
-      if (loop.point_landmarks[i] == kNone) continue;
-      ++seen;
-      const PointFeature<S>& feature = keyframe.frame.points[i];
-      const auto predicted = predict_point(map.points[map.index(loop.point_landmarks[i])], keyframe.frame,
-                                           keyframe.cam_from_world, S(-1));
-      near += predicted.visible && (predicted.pixel - feature.pixel).norm() < reach * feature.sigma;
-    }
-    return seen > 0 ? static_cast<S>(near) / static_cast<S>(seen) : S(0);
   }
 
   // False, with the map as it was, when the poses cannot be brought together.
@@ -146,7 +130,8 @@ class LoopClosing {
 
   // What the keyframe and its neighbours see of the place's landmarks becomes one with theirs.
   void join(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
-    const std::vector<KeyframeId> here = with_neighbours(map, id);
+    std::vector<KeyframeId> here;
+    take_with_neighbours(map.keyframes[map.index(id)], map.keyframes.size(), here);
     place_.gather_around(map, loop.place, options.place_keyframes);
     take_over(
         map, id, loop.point_landmarks, &Keyframe<S>::point_landmarks, map.points,
@@ -185,12 +170,6 @@ class LoopClosing {
     for (const KeyframeId k : place_.keyframes) map.update_covisibility(k);
   }
 
-  [[nodiscard]] static std::vector<KeyframeId> with_neighbours(const Map<S>& map, KeyframeId id) {
-    std::vector<KeyframeId> all(1, id);
-    for (const Neighbour& n : map.keyframes[map.index(id)].neighbours) all.push_back(n.keyframe);
-    return all;
-  }
-
   template <class Seen, class Landmarks, class Fuse, class Observe>
   static void take_over(Map<S>& map, KeyframeId id, const std::vector<LandmarkId>& of_place, Seen seen,
                         const Landmarks& landmarks, Fuse fuse, Observe observe) {
@@ -224,15 +203,14 @@ LoopAnswer<S> LoopClosing<S>::close(Map<S>& map, KeyframeId id) {
 template <Scalar S>
 std::vector<KeyframeId> LoopClosing<S>::missed(const Map<S>& map) {
   std::vector<std::pair<int, KeyframeId>> found;  // by matches, the most first
-  if (options.trials > 0)
-    for (const Keyframe<S>& keyframe : map.keyframes)
-      if (keyframe.alive())
-        if (const auto loop = detection.find(map, keyframe.id, map))
-          found.emplace_back(-loop->matches, keyframe.id);
+  for (const Keyframe<S>& kf : map.keyframes) {
+    const auto loop = kf.alive() && options.trials > 0 ? detection.find(map, kf.id, map) : std::nullopt;
+    if (loop) found.emplace_back(-loop->matches, kf.id);
+  }
   std::sort(found.begin(), found.end());
+  found.resize(std::min(found.size(), static_cast<std::size_t>(options.trials)));
   std::vector<KeyframeId> best;
-  for (std::size_t i = 0; i < found.size() && static_cast<int>(i) < options.trials; ++i)
-    best.push_back(found[i].second);
+  for (const auto& [matches, id] : found) best.push_back(id);
   return best;
 }
 
@@ -242,17 +220,20 @@ LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
   if (!loop) return {};
   const Drift drifted = drift(map, id, *loop);
   if (drifted != Drift::kLarge) return close(map, id, *loop, drifted == Drift::kSmall);
-  const std::vector<KeyframeId> here = with_neighbours(map, id);
+  std::vector<KeyframeId> here;
+  take_with_neighbours(map.keyframes[map.index(id)], map.keyframes.size(), here);
   const std::vector<Sighting> known = sightings(map, here, loop->place);
   Map<S> trial = map;
-  const LoopAnswer<S> answer = close(trial, id, *loop, true);
-  if (!answer.closed) return {};
+  if (!bend(trial, id, *loop)) return {};
+  join(trial, id, *loop);
+  adjustment.optimise(trial, id);
   match_both_ways(trial, here, id);
-  adjustment.optimise_all(trial);
+  adjustment.optimise(trial, id);
   const PlaceConfirmationOptions<S>& second = detection.confirmation.options;
   if (shared_beside<S>(trial, known, here, place_.keyframes, second.apart) < second.min_new) return {};
+  adjustment.optimise_all(trial);
   map = std::move(trial);
-  return answer;
+  return {true, new_from_old_};
 }
 
 template <Scalar S>

@@ -11,8 +11,25 @@
 
 #include "sslam/map/map.hpp"
 #include "sslam/track/contract/loop.hpp"
+#include "sslam/track/matching/match_points.hpp"
 
 namespace sslam {
+
+// Of the points of the place that a keyframe sees, the share that the map has within `reach`, in the
+// feature's sigma, of where they are seen.
+template <Scalar S>
+S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& loop, S reach) {
+  int seen = 0, near = 0;
+  for (std::size_t i = 0; i < loop.point_landmarks.size(); ++i) {
+    if (loop.point_landmarks[i] == kNone) continue;
+    ++seen;
+    const PointFeature<S>& feature = keyframe.frame.points[i];
+    const auto predicted = predict_point(map.points[map.index(loop.point_landmarks[i])], keyframe.frame,
+                                         keyframe.cam_from_world, S(-1));
+    near += predicted.visible && (predicted.pixel - feature.pixel).norm() < reach * feature.sigma;
+  }
+  return seen > 0 ? static_cast<S>(near) / static_cast<S>(seen) : S(0);
+}
 
 // Where a view shows landmarks of these places, widened by `margin` pixels; empty: it shows none.
 template <Scalar S>
