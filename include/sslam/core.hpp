@@ -220,6 +220,7 @@
 #include "sslam/track/worlds/atlas.hpp"
 #include "sslam/track/worlds/backfill.hpp"
 #include "sslam/track/worlds/drift_watch.hpp"
+#include "sslam/track/worlds/drifted_frames.hpp"
 #include "sslam/track/worlds/final_pass.hpp"
 #include "sslam/track/worlds/frame_motion.hpp"
 #include "sslam/track/worlds/map_trial.hpp"

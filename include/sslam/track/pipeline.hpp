@@ -90,7 +90,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     bool loop_closed = follow_map(upkeep.finish(world_.map));
     World<S>* largest = atlas.largest();
     if (largest != nullptr && Atlas<S>::smaller(world_, *largest)) Worlds::change_places(*largest);
-    if (keep_frames && !localise_only) loop_closed = Worlds::close_missed_loops() || loop_closed;
+    if (keep_frames && !localise_only) loop_closed = Worlds::prepare_final_pass() || loop_closed;
     final_pass.run(world_.map, fallback, refinement, relocalisation, world_.log);
     return loop_closed;
   }
@@ -104,7 +104,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
  private:
   static constexpr double kLongestStep = 0.25;  // seconds that a frame stands for: a pause is no evidence
 
-  using Worlds::finder_, Worlds::frames_, Worlds::world_;
+  using Worlds::drifted_, Worlds::finder_, Worlds::frames_, Worlds::world_;
   using Worlds::follow_map, Worlds::reference;
 
   // A map that was begun before many features were found to be fixed to the image holds them, and is given
@@ -242,6 +242,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     result.structure = false;
     frames_.lose();
     rotation.lose();
+    if (!trial.lost() && trial.drift.drifted()) drifted_.add(trial.drift.began_after(), result.stamp);
     trial.add_lost(frames_.current().frame, step_);
     if (localise_only) return;
     const bool left = trial.leaves() && atlas.options.most > 0;

@@ -10,6 +10,7 @@
 #include "sslam/track/pose_tracking.hpp"
 #include "sslam/track/worlds/atlas.hpp"
 #include "sslam/track/worlds/backfill.hpp"
+#include "sslam/track/worlds/drifted_frames.hpp"
 
 namespace sslam {
 
@@ -53,9 +54,12 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     return change->loop_closed;
   }
 
-  // After the last frame: places that were met once, and left before they were seen a second time.
-  bool close_missed_loops() {
+  // Before the final pass: what had drifted is withdrawn, and places that were met once, and left before they
+  // were seen a second time, close their loops. True if one did.
+  bool prepare_final_pass() {
     if (world_.map.empty()) return false;
+    const bool withdrawn = drifted_.withdraw(world_.map, world_.log);
+    world_.cursor.refer_to(world_.map.surviving(world_.cursor.reference()));
     const KeyframeId fixed = world_.cursor.reference();
     TrackedFrame<S>& frame = frames_.current();
     SE3<S> from_fixed = frame.cam_from_world * world_.map.pose(fixed).inverse();
@@ -68,13 +72,13 @@ class WorldKeeping : public PoseTracking<S, Stages> {
       world_.log.follow([&](KeyframeId k) { return answer.scale_at(k); });
       scale *= answer.scale_at(fixed);
     }
-    if (!closed) return false;
+    if (!closed && !withdrawn) return false;
     from_fixed.translation *= scale;
     frame.cam_from_world = from_fixed * world_.map.pose(fixed);
     frame.forget_matches();
     frames_.change_world();
     motion.move_to(frame.cam_from_world, scale);
-    return true;
+    return closed;
   }
 
   // The map of this world refutes it, or the camera has left it.
@@ -142,6 +146,7 @@ class WorldKeeping : public PoseTracking<S, Stages> {
 
   World<S> world_;
   FrameHistory<S> frames_;
+  DriftedFrames drifted_;
   decltype(std::as_const(loops).finder()) finder_;  // for worlds that were left
 
  private:

@@ -74,3 +74,20 @@ TEST_CASE("A camera that many landmarks hold is not lost where the walls stand a
   REQUIRE(results[kSteady].point_inliers > 60);
   for (std::size_t k = kSteady; k < kSteady + kDrift; ++k) CHECK(results[k].has_pose());
 }
+
+TEST_CASE("A drift begins after the last frame that agreed, or a second before one contradicted") {
+  using namespace drift_watch_test;
+  TrackedFrame<double> frame;
+  frame.manhattan = RotationObservation<double>{SO3<double>{}, 1e-6 * Mat3<double>::Identity()};
+  for (const double silent : {0.3, 3.0}) {
+    DriftWatch<double> watch;
+    const auto weigh = [&](double stamp, bool contradicts) {
+      frame.frame.stamp = stamp;
+      watch.weigh(frame, contradicts, 20, 0.1);
+    };
+    for (int k = 0; k <= 40; ++k) weigh(0.1 * k, false);
+    for (int k = 0; k < 3; ++k) weigh(4 + silent + 0.1 * k, true);
+    REQUIRE(watch.drifted());
+    CHECK(watch.began_after() == Approx(std::max(4.0, 3 + silent)));
+  }
+}

@@ -43,9 +43,11 @@ class DriftWatch {
   void weigh(const TrackedFrame<S>& frame, bool contradicts, int held_by, double seconds) {
     weakest_ = std::min(weakest_, held_by);
     if (contradicts) {
+      if (drift_ == 0) began_after_ = std::max(last_agreed_, frame.frame.stamp - kUnnoticed);
       drift_ += seconds;
     } else if (tells(frame)) {
       agreed_ += seconds;
+      last_agreed_ = frame.frame.stamp;
       end();
     }
   }
@@ -56,6 +58,10 @@ class DriftWatch {
     return weakest_ < options.weak && drift_ >= options.after - kStampError &&
            agreed_ >= std::max(kLeast, options.square * against_);
   }
+
+  // Stamp of the last frame that is not in doubt: the last that agreed, or where none did for long before the
+  // first contradiction, a second before that. A drift is small at first, and contradicts nothing.
+  [[nodiscard]] double began_after() const noexcept { return began_after_; }
 
   // Whether the Manhattan rotation of the frame is certain enough to agree with.
   [[nodiscard]] bool tells(const TrackedFrame<S>& frame) const {
@@ -76,12 +82,15 @@ class DriftWatch {
 
  private:
   static constexpr double kStampError = 1e-3;  // seconds, at best
+  static constexpr double kUnnoticed = 1;      // seconds that a drift may go on before a pose contradicts
   static constexpr int kNobody = std::numeric_limits<int>::max();
 
   // Seconds of frames, each with the time since the one before it.
-  double drift_ = 0;       // those that contradict, since the last one that agreed
-  double against_ = 0;     // those before
-  double agreed_ = 0;      // all that agreed
+  double drift_ = 0;    // those that contradict, since the last one that agreed
+  double against_ = 0;  // those before
+  double agreed_ = 0;   // all that agreed
+  double began_after_ = 0;
+  double last_agreed_ = -std::numeric_limits<double>::infinity();  // stamp
   int weakest_ = kNobody;  // points plus lines of the frame since then that fewest held
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -47,6 +48,12 @@ class TrajectoryLog {
       *at = entry;
     else
       entries_.insert(at, entry);
+  }
+
+  // Entries for which `gone(entry)` is true go; how many they were.
+  template <class Gone>
+  std::size_t withdraw(Gone gone) {
+    return std::erase_if(entries_, gone);
   }
 
   // Keyframes have moved by similarities: distances from them are multiplied by scale_at(keyframe).
