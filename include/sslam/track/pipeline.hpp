@@ -184,25 +184,13 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     motion.update(frame.cam_from_world, result.stamp);
     if (result.keyframe) {
       timer.end(Stage::kMapping);
-      close_loop(result);
+      result.loop_closed = Worlds::close_loop() || result.loop_closed;
       meet_known(result);
       timer.end(Stage::kLoops);
     }
     world_.log.add(map, result.index, result.stamp, world_.cursor.reference(), frame.cam_from_world);
     if (!tracked)
       backfill.run_back(world_.map, fallback, refinement, frame, world_.cursor.reference(), world_.log);
-  }
-
-  // The frame has just become a keyframe; the world may move under it.
-  void close_loop(TrackResult<S>& result) {
-    TrackedFrame<S>& frame = frames_.current();
-    const LoopAnswer<S> answer = upkeep.close(world_.map, world_.cursor.reference(), loops);
-    if (answer.closed) {
-      result.loop_closed = true;
-      frame.read_back(reference());
-      if (!answer.new_from_old.empty()) world_.log.follow([&](KeyframeId id) { return answer.scale_at(id); });
-      motion.move_to(frame.cam_from_world, answer.scale_at(world_.cursor.reference()));
-    }
   }
 
   // The frame has just become a keyframe; it may show a place of a world that was left.
@@ -242,7 +230,8 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     result.structure = false;
     frames_.lose();
     rotation.lose();
-    if (!trial.lost() && trial.drift.drifted()) drifted_.add(trial.drift.began_after(), result.stamp);
+    if (keep_frames && !final_pass.full() && !trial.lost() && trial.drift.drifted())
+      drifted_.add(trial.drift.began_after(), result.stamp);
     trial.add_lost(frames_.current().frame, step_);
     if (localise_only) return;
     const bool left = trial.leaves() && atlas.options.most > 0;

@@ -54,6 +54,17 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     return change->loop_closed;
   }
 
+  // The frame has just become a keyframe; the world may move under it. True if a loop was closed.
+  bool close_loop() {
+    TrackedFrame<S>& frame = frames_.current();
+    const LoopAnswer<S> answer = upkeep.close(world_.map, world_.cursor.reference(), loops);
+    if (!answer.closed) return false;
+    frame.read_back(reference());
+    follow_loop(answer);
+    motion.move_to(frame.cam_from_world, answer.scale_at(world_.cursor.reference()));
+    return true;
+  }
+
   // Before the final pass: what had drifted is withdrawn, and places that were met once, and left before they
   // were seen a second time, close their loops. True if one did.
   bool prepare_final_pass() {
@@ -68,8 +79,7 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     for (const KeyframeId id : loops.missed(world_.map)) {
       const LoopAnswer<S> answer = loops.close_on_trial(world_.map, id);
       closed = closed || answer.closed;
-      if (answer.new_from_old.empty()) continue;
-      world_.log.follow([&](KeyframeId k) { return answer.scale_at(k); });
+      follow_loop(answer);
       scale *= answer.scale_at(fixed);
     }
     if (!closed && !withdrawn) return false;
@@ -150,6 +160,10 @@ class WorldKeeping : public PoseTracking<S, Stages> {
   decltype(std::as_const(loops).finder()) finder_;  // for worlds that were left
 
  private:
+  void follow_loop(const LoopAnswer<S>& answer) {
+    if (!answer.new_from_old.empty()) world_.log.follow([&](KeyframeId id) { return answer.scale_at(id); });
+  }
+
   // What mapping elsewhere has still to say comes in, and nothing after that.
   void leave_world() {
     if (const MapChange<S>* change = upkeep.finish(world_.map)) world_.follow(*change);

@@ -119,3 +119,14 @@ TEST_CASE("An empty map, or a run without a frame, has a final pass without effe
   pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
   CHECK(log.entries().empty());
 }
+
+TEST_CASE("A final pass says when it keeps no further frame") {
+  CHECK(NoFinalPass<double>().full());
+  Simulation simulation(walk(3));
+  FinalPass<double> pass;
+  pass.options.max_frames = 2;
+  for (std::size_t k = 0; k < simulation.size(); ++k) {
+    CHECK(pass.full() == (k >= 2));
+    pass.keep(unmatched(simulation.frame(k)));
+  }
+}

@@ -113,6 +113,7 @@ concept UpkeepStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame, Map
 template <class T, class S>
 concept FinalStage = requires(T stage, const T& done, const TrackedFrame<S>& frame) {
   stage.keep(frame);
+  { done.full() } -> std::same_as<bool>;        // it keeps no further frame
   { done.read_out() } -> std::same_as<double>;  // seconds of a rolling shutter; 0: none
 };
 

@@ -22,10 +22,10 @@ class DriftedFrames {
                        [&](const auto& range) { return range.first < stamp && stamp <= range.second; });
   }
 
-  // True if the map or the log had any. The first two keyframes stay: they hold place and scale. What hangs
-  // on a keyframe that goes is carried on by the one before it.
+  // Each drift is withdrawn once. True if the map or the log had any of its frames. The first two keyframes
+  // stay: they hold place and scale. What hangs on a keyframe that goes is carried on by the one before it.
   template <Scalar S>
-  bool withdraw(Map<S>& map, TrajectoryLog<S>& log) const {
+  bool withdraw(Map<S>& map, TrajectoryLog<S>& log) {
     if (ranges_.empty()) return false;
     KeyframeId before = kNone;
     bool any = false;
@@ -39,7 +39,9 @@ class DriftedFrames {
         before = id;
       }
     }
-    return log.withdraw([&](const auto& entry) { return contains(entry.stamp); }) > 0 || any;
+    any = log.withdraw([&](const auto& entry) { return contains(entry.stamp); }) > 0 || any;
+    ranges_.clear();
+    return any;
   }
 
  private:

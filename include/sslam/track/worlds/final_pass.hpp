@@ -65,7 +65,7 @@ class FinalPass {
 
   // A frame has been tracked, or lost; its features are copied, with the patches of those that see landmarks.
   void keep(const TrackedFrame<S>& tracked) {
-    if (frames_.size() >= options.max_frames) return;
+    if (full()) return;
     const Frame<S>& frame = tracked.frame;
     Frame<S>& kept = frames_.emplace_back();
     kept.index = frame.index;
@@ -77,6 +77,9 @@ class FinalPass {
     kept.lines = frame.lines;
     keep_seen_patches<S>(frame.patches, tracked.point_landmarks, kept);
   }
+
+  // No further frame is kept, so that none will be tracked again.
+  [[nodiscard]] bool full() const noexcept { return frames_.size() >= options.max_frames; }
 
   // The map has its last keyframe. Poses go into the log; the frames are forgotten.
   template <class Fallback, class Refinement>

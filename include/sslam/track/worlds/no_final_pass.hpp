@@ -12,6 +12,7 @@ template <Scalar S>
 struct NoFinalPass {
   [[nodiscard]] double read_out() const noexcept { return 0; }
   void keep(const TrackedFrame<S>&) noexcept {}
+  [[nodiscard]] bool full() const noexcept { return true; }
   template <class Fallback, class Refinement>
   void run(Map<S>&, Fallback&, Refinement&, Relocalisation<S>&, TrajectoryLog<S>&) noexcept {}
 };
