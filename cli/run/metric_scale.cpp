@@ -48,7 +48,7 @@ std::map<std::int64_t, const io::FrameEntry*> frames_with_depth(const io::Datase
 
 void scale_by_depth(const RunOutcome& outcome, const ScaleInput& input, ScaleRecord& scale) {
   constexpr std::size_t kLandmarks = 10, kKeyframes = 2;  // of a keyframe; of the map
-  constexpr double kAgree = 0.3, kFarthest = 200;  // the latter in metres: no sensor sees farther indoors
+  constexpr double kAgree = 0.3, kFarthest = 200;         // metres: no sensor sees farther indoors
   const auto frames = frames_with_depth(input.dataset);
   FrameReader reader(input.dataset);
   std::vector<double> medians, all;

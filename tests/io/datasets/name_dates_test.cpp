@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/errors.hpp"
+#include "io/image_names.hpp"
 #include "sslam/io/datasets/name_dates.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
 #include "support/catch.hpp"
@@ -13,18 +14,14 @@ namespace name_dates_test {
 namespace {
 
 using namespace sslam;
-using testing::contains;
+using testing::contains, testing::kHalfPastNoon;
 
 using Names = std::vector<std::string>;
 using Stamps = std::vector<double>;
 
 io::NameDates dates_of(const Names& names) {
-  std::vector<std::filesystem::path> images;
-  for (const std::string& name : names) images.emplace_back(name + ".png");
-  return io::dates_of_names(images);
+  return io::dates_of_names(testing::images_named(names));
 }
-
-constexpr double kHalfPastNoon = 1714566615;  // 2024-05-01 12:30:15 UTC
 
 TEST_CASE("A date and a time in a name are seconds since 1970, however they are written") {
   const std::string name =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/errors.hpp"
+#include "io/image_names.hpp"
 #include "sslam/io/datasets/name_stamps.hpp"
 #include "support/catch.hpp"
 
@@ -13,18 +14,14 @@ namespace odd_names_test {
 namespace {
 
 using namespace sslam;
-using testing::contains;
+using testing::contains, testing::kHalfPastNoon;
 
 using Names = std::vector<std::string>;
 using Stamps = std::vector<double>;
 
 io::NameStamps stamps_of(const Names& names) {
-  std::vector<std::filesystem::path> images;
-  for (const std::string& name : names) images.emplace_back(name + ".png");
-  return io::stamps_of_names(images);
+  return io::stamps_of_names(testing::images_named(names));
 }
-
-constexpr double kHalfPastNoon = 1714566615;  // 2024-05-01 12:30:15 UTC
 
 }  // namespace
 
@@ -68,7 +65,7 @@ TEST_CASE("Dates with years of two digits, where the time alone does not tell") 
         Stamps{kHalfPastNoon + 44, kHalfPastNoon + 45, kHalfPastNoon + 47});
 }
 
-TEST_CASE("A counter behind a short date is none of its times") {
+TEST_CASE("Numbers behind a date with a short year are no time if they count") {
   const Names names = GENERATE(Names{"240501_000001", "240501_000002"}, Names{"240501000001", "240501000002"},
                                Names{"100101000000", "100101000061"}, Names{"241301123015", "241301123016"});
   CAPTURE(names.front());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/errors.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
@@ -34,12 +35,7 @@ void check_camera_values(const CameraFile& file, const Pinhole<double>& pinhole,
 }
 
 void check_refused(const std::string& text, const std::string& part) {
-  std::string complaint;
-  try {
-    (void)read_written(text);
-  } catch (const Error& error) {
-    complaint = error.what();
-  }
+  const std::string complaint = testing::error_of([&] { (void)read_written(text); });
   INFO(complaint);
   CHECK(complaint.find(part) != std::string::npos);
   CHECK(complaint.find('\n') == std::string::npos);

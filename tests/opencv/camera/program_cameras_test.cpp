@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/errors.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "support/catch.hpp"
 #include "support/scratch_folder.hpp"
@@ -39,12 +40,7 @@ void check_lens(const CameraFile& file, const RadTan<double>& expected) {
 }
 
 void check_refusal(const std::string& text, const std::string& part) {
-  std::string complaint;
-  try {
-    (void)read_as(text);
-  } catch (const Error& error) {
-    complaint = error.what();
-  }
+  const std::string complaint = testing::error_of([&] { (void)read_as(text); });
   INFO(complaint);
   CHECK(complaint.find(part) != std::string::npos);
   CHECK(complaint.find('\n') == std::string::npos);

@@ -62,10 +62,8 @@ int shared_beside(const Map<S>& map, std::span<const Sighting> known, std::span<
       if (seen[i] != kNone) places[n].push_back(map.points[map.index(seen[i])].position);
   }
   const auto seen_there = [&](LandmarkId id) {
-    const auto& observations = map.points[map.index(id)].observations;
-    return std::any_of(observations.begin(), observations.end(), [&](const Observation& o) {
-      return std::find(there.begin(), there.end(), o.keyframe) != there.end();
-    });
+    return std::any_of(there.begin(), there.end(),
+                       [&](KeyframeId k) { return map.points[map.index(id)].seen_by(k); });
   };
   std::vector<Eigen::AlignedBox<S, 2>> boxes(known.size());
   std::vector<LandmarkId> shared;
