@@ -24,6 +24,7 @@ namespace detail {
 [[nodiscard]] inline std::vector<double> named_values(const CameraKeys& keys,
                                                       const std::vector<std::string_view>& names) {
   std::vector<double> values;
+  values.reserve(names.size());
   for (const std::string_view name : names) values.push_back(keys.optional({name}, 0, kCoefficient));
   return values;
 }

@@ -209,8 +209,8 @@ std::vector<KeyframeId> LoopClosing<S>::missed(const Map<S>& map) {
   }
   std::sort(found.begin(), found.end());
   found.resize(std::min(found.size(), static_cast<std::size_t>(options.trials)));
-  std::vector<KeyframeId> best;
-  for (const auto& [matches, id] : found) best.push_back(id);
+  std::vector<KeyframeId> best(found.size());
+  std::transform(found.begin(), found.end(), best.begin(), [](const auto& one) { return one.second; });
   return best;
 }
 
