@@ -129,12 +129,14 @@ def run(a):
              for start in a.starts]
     extra = ["--preset", a.preset] + [word for s in a.set for word in ("--set", s)]
     extra += ["--no-final-pass"] if a.no_final_pass else []
-    with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
-        rows = list(pool.map(lambda case: run_one(a.program, folders[case[0]], case, extra), cases))
-    with open(a.csv, "w", newline="") as file:
+    rows = []
+    with open(a.csv, "w", newline="") as file, concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
-        writer.writerows(rows)
+        for row in pool.map(lambda case: run_one(a.program, folders[case[0]], case, extra), cases):
+            writer.writerow(row)
+            file.flush()  # who stops the rest keeps what is done
+            rows.append(row)
     print_table([groups_of(rows)])
 
 
