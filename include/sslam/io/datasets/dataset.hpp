@@ -34,6 +34,7 @@ enum class Layout {
   kTum,
   kEuroc,
   kKitti,
+  kKittiRaw,
   kReplica,
   kScanNet,
   kSevenScenes,

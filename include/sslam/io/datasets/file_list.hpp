@@ -13,6 +13,7 @@
 
 #include "sslam/core/file_kind.hpp"
 #include "sslam/io/files/bad_entries.hpp"
+#include "sslam/io/files/dated_rows.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/stamp_unit.hpp"
@@ -164,9 +165,10 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
                                                              const std::filesystem::path& root,
                                                              Warnings& warnings,
                                                              std::vector<StampedFile>* second = nullptr) {
-  const std::string text = read_plain_text(list);
+  std::string text = read_plain_text(list);
   if (const std::string kind = file_kind(text); !kind.empty())
     throw Error(list.string() + ": " + kind + "; expected rows of 'stamp file' in plain text");
+  text = with_seconds(std::move(text), list, warnings);
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");
@@ -176,7 +178,7 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
     file_list_detail::RowReader reader(row.text);
     auto file = file_list_detail::take_stamped_file(reader, root);
     if (!file) {
-      bad.add(row.line, "expected 'stamp file' with the stamp as a number");
+      bad.add(row.line, "expected 'stamp file' with the stamp as a number, or as 2011-09-26T13:02:25.96");
       continue;
     }
     if (file_list_detail::has_second_number(*file, root)) {

@@ -15,10 +15,13 @@ struct LayoutMarks {
   std::string_view images;                // without which it cannot be read
 };
 
-inline constexpr std::array<LayoutMarks, 7> kLayoutMarks{{
+inline constexpr std::array<LayoutMarks, 8> kLayoutMarks{{
     {"TUM RGB-D", {"groundtruth.txt", "depth.txt", "accelerometer.txt", "rgb"}, "rgb.txt"},
     {"EuRoC", {"mav0", "mav0/cam0", "cam0", "sensor.yaml"}, "mav0/cam0/data.csv"},
     {"KITTI odometry", {"times.txt", "calib.txt", "image_1", "image_3"}, "image_0/000000.png"},
+    {"KITTI raw",
+     {"image_00/data", "image_02/data", "oxts", "velodyne_points"},
+     "image_00/timestamps.txt or image_02/timestamps.txt"},
     {"Replica", {"traj.txt", "results", "", ""}, "results/frame000000.jpg"},
     {"ScanNet", {"pose", "intrinsic", "color", ""}, "color/0.jpg"},
     {"colour and depth folders", {"depth", "intrinsic.json", "camera_intrinsic.json", ""}, "color/N.png"},

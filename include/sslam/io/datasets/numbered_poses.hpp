@@ -118,7 +118,7 @@ inline void tell_missing_rows(Dataset& dataset, const std::filesystem::path& pos
   std::error_code ignored;
   std::vector<double> clock;
   if (std::filesystem::is_regular_file(times, ignored)) {
-    clock = read_times(times);
+    clock = read_times(times, dataset.warnings);
   } else {
     dataset.warnings.push_back(times.string() + ": is missing; images taken as 10 a second");
   }

@@ -16,6 +16,7 @@
 #include "sslam/io/datasets/euroc.hpp"
 #include "sslam/io/datasets/icl_nuim.hpp"
 #include "sslam/io/datasets/image_folder.hpp"
+#include "sslam/io/datasets/kitti_raw.hpp"
 #include "sslam/io/datasets/nearest_layout.hpp"
 #include "sslam/io/datasets/numbered_poses.hpp"
 #include "sslam/io/datasets/seven_scenes.hpp"
@@ -39,7 +40,7 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 12> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
@@ -48,6 +49,8 @@ inline constexpr std::array<FolderLayout, 11> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_euroc(root); }},
     {Layout::kKitti, "KITTI odometry", "image_0/NNNNNN.png", is_kitti,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_kitti(root); }},
+    {Layout::kKittiRaw, "KITTI raw", "image_00/data/N.png with image_00/timestamps.txt", is_kitti_raw,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_kitti_raw(root); }},
     {Layout::kReplica, "Replica", "results/frameNNNNNN.jpg", is_replica,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_replica(root); }},
     {Layout::kScanNet, "ScanNet", "color/N.jpg with pose/ and intrinsic/", is_scannet,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sslam/io/files/dated_rows.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/text.hpp"
 
@@ -27,9 +28,9 @@ namespace trajectory_detail {
 
 }  // namespace trajectory_detail
 
-// The first column of a list of times, in its own unit.
-[[nodiscard]] inline std::vector<double> read_times(const std::filesystem::path& file) {
-  const std::string text = read_plain_text(file);
+// The first column of a list of times, in its own unit; dates in seconds, with a warning.
+[[nodiscard]] inline std::vector<double> read_times(const std::filesystem::path& file, Warnings& warnings) {
+  const std::string text = with_seconds(read_plain_text(file), file, warnings);
   std::vector<double> times;
   for (const TextRow& row : split_rows(text)) {
     const auto time = parse_number<double>(row.cells.front());

@@ -17,6 +17,7 @@
 
 #include "sslam/core/file_kind.hpp"
 #include "sslam/io/files/bad_entries.hpp"
+#include "sslam/io/files/dated_rows.hpp"
 #include "sslam/io/files/decimal_commas.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/plain_text.hpp"
@@ -131,7 +132,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   std::vector<double> clock;
   if (!transforms.stamped) {
     if (times.empty()) times = trajectory_detail::find_times(path);
-    if (!times.empty()) clock = read_times(times);
+    if (!times.empty()) clock = read_times(times, warnings);
     result.counted = clock.empty();
     if (!result.counted && clock.size() != transforms.frames.size())
       throw Error(times.string() + ": has " + std::to_string(clock.size()) + " times for the " +
@@ -160,10 +161,11 @@ inline void join_matrices(std::vector<TextRow>& rows) {
 // changed. `times`: of a file without stamps; empty: looked for beside it.
 [[nodiscard]] inline PoseFile read_pose_file(const std::filesystem::path& path, Warnings& warnings,
                                              std::filesystem::path times = {}) {
-  const std::string text = with_decimal_points(read_plain_text(path));
+  std::string text = read_plain_text(path);
   if (const std::string kind = file_kind(text); !kind.empty())
     throw Error(path.string() + ": " + kind + "; expected rows of poses in plain text");
   if (is_transforms_text(text)) return read_transforms_poses(path, warnings, std::move(times));
+  text = with_decimal_points(with_seconds(std::move(text), path, warnings));
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty())
@@ -179,7 +181,7 @@ inline void join_matrices(std::vector<TextRow>& rows) {
   std::vector<double> clock;
   if (!has_stamp(layout)) {
     if (times.empty()) times = trajectory_detail::find_times(path);
-    if (!times.empty() && times != kNoTimes) clock = read_times(times);
+    if (!times.empty() && times != kNoTimes) clock = read_times(times, warnings);
     result.counted = clock.empty();
     if (!result.counted && clock.size() != rows.size())
       throw Error(times.string() + ": has " + std::to_string(clock.size()) + " times for the " +

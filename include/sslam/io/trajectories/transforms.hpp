@@ -14,6 +14,7 @@
 
 #include "sslam/core/text_tree.hpp"
 #include "sslam/io/files/bad_entries.hpp"
+#include "sslam/io/files/date_stamps.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/trajectories/pose_row.hpp"
@@ -78,7 +79,8 @@ inline void add_numbers(const TextNode& node, std::vector<double>& numbers) {
       bad.add(node.line, "the frame has no file_path");
       continue;
     }
-    const auto stamp = sslam::number_of(transforms_detail::text_at(node, "timestamp"));
+    const std::string time = transforms_detail::text_at(node, "timestamp");
+    const auto number = sslam::number_of(time), stamp = number ? number : seconds_of_date(time);
     frame.has_stamp = stamp && std::isfinite(*stamp);
     if (frame.has_stamp) frame.stamp = *stamp;
     if (const TextNode* matrix = node.find("transform_matrix")) {
