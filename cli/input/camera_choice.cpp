@@ -67,6 +67,7 @@ CameraChoice camera_from_file(const std::filesystem::path& path) {
   const CameraFile file = read_wide_camera_file(path);
   CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
   choice.wide = file.wide;
+  choice.view_across = file.view_across;
   return choice;
 }
 
@@ -139,6 +140,12 @@ CameraChoice assumed_camera(const io::Dataset& dataset, int width, int height) {
 
 }  // namespace
 
+void take_size(CameraChoice& choice, int width, int height) {
+  if (choice.view_across == 0) return;
+  const double focal = focal_of_view(degrees(choice.view_across), width);
+  choice.camera = plain_camera(focal, width, height, {}, 0).camera;
+}
+
 void take_view(CameraChoice& choice, double wanted) {
   if (!choice.wide) {
     if (wanted > 0)
@@ -175,6 +182,7 @@ CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, i
   if (!choice) choice = find_camera(wish.file, dataset);
   if (!choice) choice = assumed_camera(dataset, width, height);
   complete_depth(*choice, dataset);
+  take_size(*choice, width, height);
   fit_camera(choice->camera, width, height, choice->source, choice->notes, choice->warnings);
   take_view(*choice, wish.undistort_fov);
   return *choice;

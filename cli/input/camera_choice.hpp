@@ -33,6 +33,7 @@ struct CameraChoice {
   double focal_sigma = 0.05;       // how far the focal length may be off, as a part of it
   std::optional<WideLens> wide{};  // of the images, where `camera` is that of a view of them
   double view_fov = 0;             // of that view, degrees across
+  double view_across = 0;          // radians, of a camera of which nothing else is known; 0: `camera` is
 };
 
 // Of a camera file. Throws Error when it is wrong.
@@ -51,6 +52,9 @@ inline constexpr double kUnknownFocal = 0.4;
 
 // What --focal or --fov make of images of this size; nothing where neither is given.
 [[nodiscard]] std::optional<CameraChoice> wished_camera(const CameraWish& wish, int width, int height);
+
+// Of a camera of which only the field of view is known: makes it that of images of this size.
+void take_size(CameraChoice& choice, int width, int height);
 
 // A wide lens is looked through a pinhole's view of its images: brings `camera` to it. Throws Error when the
 // lens sees less than is asked for.

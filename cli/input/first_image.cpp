@@ -89,6 +89,7 @@ void tell_range(const io::Dataset& dataset, cv::Size camera) {
 CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& dataset) {
   const bool wished = wish.focal > 0 || wish.fov > 0;
   const std::optional<CameraChoice> known = wished ? std::nullopt : find_camera(wish.file, dataset);
+  const bool placed = known && known->view_across == 0;  // its centre tells how the images are held
   const cv::Size claimed = known ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
   const FirstImage first = find_first_image(dataset, claimed);
   if (first.stored.empty()) {
@@ -99,10 +100,10 @@ CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& datase
     return choice;
   }
   const cv::Size size = !claimed.empty() ? claimed
-                        : known          ? size_by_centre(known->camera.pinhole, first)
+                        : placed         ? size_by_centre(known->camera.pinhole, first)
                                          : turned_size(first.stored, first.turn);
   const bool video = dataset.layout == io::Layout::kVideo;
-  const ImageTurn used = known ? turn_for_camera(first.stored, first.turn, size, video) : first.turn;
+  const ImageTurn used = placed ? turn_for_camera(first.stored, first.turn, size, video) : first.turn;
   const cv::Size images = turned_size(first.stored, used);
   CameraChoice choice = choose_camera(wish, dataset, images.width, images.height);
   if (first.several)

@@ -44,6 +44,7 @@ class ImageCamera {
                  size_text(width, height) + " (--camera gives another)");
       return;
     }
+    take_size(*known_, width, height);
     fit_camera(known_->camera, width, height, known_->source, known_->notes, known_->warnings);
     take_view(*known_, wish_.undistort_fov);
     if (known_->wide) view_.emplace(*known_->wide, known_->view_fov);

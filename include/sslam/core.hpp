@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sslam/core/closest_word.hpp"
+#include "sslam/core/colmap_cameras.hpp"
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/core/file_kind.hpp"

@@ -141,4 +141,28 @@ TEST_CASE("A calibration without a size that cannot be that of the images is ref
   CHECK(room.error(640, 480).empty());
 }
 
+TEST_CASE("A field of view without a size is that of the images") {
+  Room room;
+  room.scratch.write("transforms_train.json", "{\"camera_angle_x\": 1.5707963267948966, \"frames\": []}");
+  room.dataset.camera_file = room.scratch.path() / "transforms_train.json";
+  const cli::CameraChoice choice = room.choose(640, 480);
+  CHECK(std::abs(choice.camera.pinhole.fx - 320) < 1e-9);
+  CHECK(choice.camera.pinhole.cy == 239.5);
+  CHECK(choice.camera.height == 480);
+}
+
+TEST_CASE("A COLMAP camera in binary form is read") {
+  Room room;
+  const auto bytes_of = [](auto value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  std::string bytes = bytes_of(std::uint64_t{1}) + bytes_of(std::int32_t{1}) + bytes_of(std::int32_t{1}) +
+                      bytes_of(std::uint64_t{640}) + bytes_of(std::uint64_t{480});
+  for (const double number : {500.0, 510.0, 320.0, 240.0}) bytes += bytes_of(number);
+  room.scratch.write("cameras.bin", bytes);
+  const cli::CameraChoice choice = room.choose(640, 480, {(room.scratch.path() / "cameras.bin").string()});
+  CHECK(choice.camera.pinhole.fy == 510);
+  CHECK(choice.camera.pinhole.cx == 319.5);
+}
+
 }  // namespace camera_choice_test

@@ -22,10 +22,11 @@ std::string frame(const std::string& file, int x, const std::string& more = {}) 
          std::to_string(x) + "], [0, 1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]}";
 }
 
-void write(const ScratchFolder& scratch, const std::vector<std::string>& frames) {
+void write(const ScratchFolder& scratch, const std::vector<std::string>& frames,
+           const std::string& file = "transforms.json") {
   std::string text = "{\"fl_x\": 500, \"w\": 640, \"h\": 480,\n \"frames\": [";
   for (const std::string& one : frames) text += (text.back() == '[' ? "\n" : ",\n") + one;
-  scratch.write("transforms.json", text + "]}\n");
+  scratch.write(file, text + "]}\n");
 }
 
 }  // namespace transforms_test
@@ -129,4 +130,37 @@ TEST_CASE("A transforms.json that holds a camera alone leaves its folder a folde
   scratch.write("1.png");
   scratch.write("transforms.json", "{\"fl_x\": 500, \"frames\": []}\n");
   CHECK(io::open_dataset(scratch.path()).layout == io::Layout::kImages);
+}
+
+TEST_CASE("transforms_train.json and its like are one sequence where there is no transforms.json") {
+  using namespace transforms_test;
+  const ScratchFolder scratch;
+  for (const char* name : {"images/1.png", "images/2.png", "images/3.png", "images/10.png"})
+    scratch.write(name);
+  write(scratch, {frame("images/1", 1), frame("images/10", 10), frame("images/3", 3)},
+        "transforms_train.json");
+  SECTION("alone") {
+    const io::Dataset dataset = io::open_dataset(scratch.path());
+    CHECK(dataset.layout == io::Layout::kTransforms);
+    CHECK(dataset.warnings.empty());
+    CHECK(dataset.frames.size() == 3);
+    CHECK(dataset.camera_file.filename() == "transforms_train.json");
+  }
+  SECTION("with the part for tests") {
+    write(scratch, {frame("images/2", 2)}, "transforms_test.json");
+    const io::Dataset dataset = io::open_dataset(scratch.path());
+    REQUIRE(dataset.frames.size() == 4);
+    const int numbers[] = {1, 2, 3, 10};
+    for (std::size_t i = 0; i < 4; ++i)
+      CHECK(dataset.world_from_cam(dataset.frames[i])->translation.x() == numbers[i]);
+    REQUIRE(dataset.warnings.size() == 1);
+    CHECK(contains(
+        dataset.warnings[0],
+        "transforms_train.json, transforms_test.json list 3, 1 images: taken as one sequence, by the "
+        "natural order of their names"));
+  }
+  SECTION("not beside transforms.json") {
+    write(scratch, {frame("images/2", 2)});
+    CHECK(io::open_dataset(scratch.path()).frames.size() == 1);
+  }
 }

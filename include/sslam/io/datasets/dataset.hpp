@@ -41,6 +41,7 @@ enum class Layout {
   kIclNuim,
   kTransforms,
   kColourDepth,
+  kColmap,
   kBag,
   kImages,
   kVideo,

@@ -15,7 +15,7 @@ struct LayoutMarks {
   std::string_view images;                // without which it cannot be read
 };
 
-inline constexpr std::array<LayoutMarks, 8> kLayoutMarks{{
+inline constexpr std::array<LayoutMarks, 9> kLayoutMarks{{
     {"TUM RGB-D", {"groundtruth.txt", "depth.txt", "accelerometer.txt", "rgb"}, "rgb.txt"},
     {"EuRoC", {"mav0", "mav0/cam0", "cam0", "sensor.yaml"}, "mav0/cam0/data.csv"},
     {"KITTI odometry", {"times.txt", "calib.txt", "image_1", "image_3"}, "image_0/000000.png"},
@@ -25,9 +25,10 @@ inline constexpr std::array<LayoutMarks, 8> kLayoutMarks{{
     {"Replica", {"traj.txt", "results", "", ""}, "results/frame000000.jpg"},
     {"ScanNet", {"pose", "intrinsic", "color", ""}, "color/0.jpg"},
     {"colour and depth folders", {"depth", "intrinsic.json", "camera_intrinsic.json", ""}, "color/N.png"},
+    {"COLMAP", {"sparse", "database.db", "sparse/0", ""}, "sparse/0/images.txt or images.bin, with cameras"},
     {"nerfstudio or instant-ngp",
      {"transforms_train.json", "transforms.json", "images", "sparse_pc.ply"},
-     "transforms.json with a file_path in its frames"},
+     "transforms.json, or transforms_train.json, with a file_path in its frames"},
 }};
 
 // "looks like EuRoC: mav0/cam0/data.csv is missing"; empty where nothing of any layout is there.

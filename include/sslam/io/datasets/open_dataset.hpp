@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sslam/io/datasets/bag_files.hpp"
+#include "sslam/io/datasets/colmap_folder.hpp"
 #include "sslam/io/datasets/colour_depth.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/datasets/euroc.hpp"
@@ -40,7 +41,7 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 12> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 13> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
@@ -57,7 +58,8 @@ inline constexpr std::array<FolderLayout, 12> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_scannet(root, options.frame_rate);
      }},
-    {Layout::kTransforms, "transforms.json", "transforms.json with file_path", is_transforms_folder,
+    {Layout::kTransforms, "transforms.json", "transforms.json, or transforms_train.json, with file_path",
+     is_transforms_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_transforms_folder(root, options.frame_rate);
      }},
@@ -66,6 +68,10 @@ inline constexpr std::array<FolderLayout, 12> kFolderLayouts{{
     {Layout::kColourDepth, "colour and depth folders", "color/ with depth/", is_colour_depth,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_colour_depth(root, options.frame_rate);
+     }},
+    {Layout::kColmap, "COLMAP", "images/ with sparse/0/images.txt or .bin", is_colmap_folder,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_colmap_folder(root, options.frame_rate);
      }},
     {Layout::kBag, "ROS bag", "*.mcap or *.db3", is_bag_folder,
      [](const FolderLayout::Path& root, const OpenOptions&) { return unread_bag(root); }},

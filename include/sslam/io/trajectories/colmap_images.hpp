@@ -22,6 +22,7 @@ namespace sslam::io {
 struct NamedPose {
   std::string name;
   SE3<double> world_from_cam;
+  std::int64_t camera = 0;  // its id
 };
 
 // Of the seven numbers QW QX QY QZ TX TY TZ; nothing, with the reason in `why`, where they are no pose.
@@ -58,7 +59,7 @@ struct NamedPose {
     const char* const name = row.cells[9].data();  // it may hold blanks
     std::string_view rest(name, static_cast<std::size_t>(row.text.data() + row.text.size() - name));
     while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\t')) rest.remove_suffix(1);
-    images.push_back({std::string(rest), *pose});
+    images.push_back({std::string(rest), *pose, *parse_number<std::int64_t>(row.cells[8])});
   }
   return images;
 }
@@ -94,7 +95,7 @@ struct NamedPose {
     at += static_cast<std::size_t>(features * kFeature);
     const auto pose = pose_of_colmap(v, why);
     if (!pose) throw Error(path.string() + ": image " + std::to_string(id) + ": " + why);
-    images.push_back({std::move(name), *pose});
+    images.push_back({std::move(name), *pose, camera});
   }
   return images;
 }

@@ -62,6 +62,16 @@ inline void add_numbers(const TextNode& node, std::vector<double>& numbers) {
          text.find("\"frames\"") != std::string_view::npos;
 }
 
+// In natural order of the files, by stamp where all have one.
+inline void order_transforms(Transforms& transforms) {
+  const auto stamped = [](const TransformsFrame& frame) { return frame.has_stamp; };
+  transforms.stamped = std::all_of(transforms.frames.begin(), transforms.frames.end(), stamped);
+  std::stable_sort(transforms.frames.begin(), transforms.frames.end(),
+                   [&transforms](const TransformsFrame& a, const TransformsFrame& b) {
+                     return transforms.stamped ? a.stamp < b.stamp : natural_less(a.file, b.file);
+                   });
+}
+
 // A few frames that cannot be read are skipped with a warning each. Throws Error in one line.
 [[nodiscard]] inline Transforms read_transforms(const std::filesystem::path& path, Warnings& warnings) {
   const std::string text = read_plain_text(path);
@@ -99,12 +109,7 @@ inline void add_numbers(const TextNode& node, std::vector<double>& numbers) {
     result.frames.push_back(std::move(frame));
   }
   bad.settle(frames->items.size(), warnings);
-  const auto stamped = [](const TransformsFrame& frame) { return frame.has_stamp; };
-  result.stamped = std::all_of(result.frames.begin(), result.frames.end(), stamped);
-  std::stable_sort(result.frames.begin(), result.frames.end(),
-                   [&result](const TransformsFrame& a, const TransformsFrame& b) {
-                     return result.stamped ? a.stamp < b.stamp : natural_less(a.file, b.file);
-                   });
+  order_transforms(result);
   return result;
 }
 

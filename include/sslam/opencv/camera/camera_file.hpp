@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "sslam/core/colmap_cameras.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/core/file_kind.hpp"
 #include "sslam/core/plain_text.hpp"
@@ -35,6 +37,11 @@ namespace detail {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file) throw Error(path.string() + ": cannot open this camera file");
+  if (path.filename() == "cameras.bin") {
+    std::string rows;
+    for (const ColmapCamera& camera : parse_colmap_binary(text, path.string())) rows += camera.row + "\n";
+    return rows;
+  }
   if (const std::string other = file_kind(text); !other.empty())
     throw Error(path.string() + ": " + other +
                 "; expected a calibration in plain text, such as a row 'fx fy cx cy k1 k2 p1 p2 k3'");
@@ -106,10 +113,14 @@ namespace detail {
 [[nodiscard]] inline CameraFile parse_camera_text(const std::string& text, const std::string& source) {
   CameraFile read = detail::read_any_camera(text, source);
   if (read.wide) throw Error(read.wide_reason);
+  if (read.view_across > 0)
+    throw Error(source + ": camera_angle_x without w and h; give --fov " +
+                detail::short_text(read.view_across * 180 / std::numbers::pi) + " instead of this file");
   return read;
 }
 
-// Also of a lens that is too wide for a pinhole, `wide` of the answer. Throws Error as read_camera_file.
+// Also of a lens that is too wide for a pinhole, `wide` of the answer, and of a file that says no more than
+// `view_across`. Throws Error as read_camera_file.
 [[nodiscard]] inline CameraFile read_wide_camera_file(const std::filesystem::path& path) {
   CameraFile read = detail::read_any_camera(detail::read_camera_text(path), path.string());
   if (read.wide) {

@@ -22,7 +22,9 @@ struct CameraFile {
   double frame_rate = 0;    // frames a second; 0: not given
   // A lens that is no radial-tangential one: `camera` has no distortion then, and is its plane alone.
   std::optional<WideLens> wide{};
-  std::string wide_reason{};         // why it is none
+  std::string wide_reason{};  // why it is none
+  // Radians across, where that is all that the file says, without the image's size: `camera` is empty then.
+  double view_across = 0;
   std::vector<std::string> notes{};  // what the user should know about how the file was read
 };
 

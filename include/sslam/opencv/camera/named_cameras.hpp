@@ -146,9 +146,10 @@ inline CameraFile read_transforms(const CameraKeys& keys, const TextNode& root) 
     keys.fail("camera_angle_x is " + short_text(angle) +
               "; expected the horizontal field of view in radians; are these degrees, give --fov " +
               short_text(angle) + " instead of this file");
-  if (angle > 0)
-    keys.fail("camera_angle_x without w and h; give --fov " + short_text(angle * 180 / std::numbers::pi) +
-              " instead of this file");
+  if (angle > 0) {
+    file.view_across = angle;
+    return file;
+  }
   const TextNode* const frames = root.find("frames");
   if (&keys.map() == &root && frames != nullptr && !frames->items.empty()) {
     file = read_transforms(CameraKeys(frames->items.front(), keys.file(), "frames[0]."), root);
