@@ -98,6 +98,11 @@ void tell_of_pixels(io::Dataset& dataset, const VideoInfo& info) {
       info.pixel_aspect);
   constexpr double kSquare = 0.005;
   if (std::abs(info.pixel_aspect - 1) > kSquare) dataset.warnings.push_back(file + text);
+  std::snprintf(text, sizeof text,
+                ": its tag turns it by %.3g degrees, which is no multiple of 90: the images are read as they "
+                "are stored; `ffmpeg -i IN OUT` turns them",
+                info.odd_turn);
+  if (info.odd_turn != 0) dataset.warnings.push_back(file + text);
   if (info.interlaced)
     dataset.warnings.push_back(file +
                                ": is interlaced, every other row is of another moment; `ffmpeg -i IN "

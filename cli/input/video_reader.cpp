@@ -6,12 +6,14 @@ extern "C" {
 }
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <thread>
 
 #include "cli/input/ffmpeg_parts.hpp"
 #include "cli/input/image_limit.hpp"
 #include "sslam/core/error.hpp"
+#include "sslam/core/types.hpp"
 
 namespace sslam::cli {
 
@@ -66,15 +68,24 @@ bool is_shown(const ffmpeg::VideoContainer& container, const AVPacket& packet) {
   return container.stream->codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & kShownVp8) != 0;
 }
 
-// The matrix takes stored pixels (x right, y down) to displayed ones; its signs say which of eight it is.
-ImageTurn turn_of(const AVStream& stream) {
+// The matrix takes stored pixels (x right, y down) to displayed ones; its signs say which of eight it is, as
+// long as it turns by a right angle, to a degree.
+void read_turn(const AVStream& stream, VideoInfo& info) {
   const auto* matrix = reinterpret_cast<const std::int32_t*>(
       av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
-  if (matrix == nullptr) return kUpright;
-  const std::int32_t a = matrix[0], b = matrix[1], c = matrix[3], d = matrix[4];
-  if (a != 0 && d != 0 && b == 0 && c == 0) return a > 0 ? (d > 0 ? 1 : 4) : (d > 0 ? 2 : 3);
-  if (b != 0 && c != 0 && a == 0 && d == 0) return b > 0 ? (c > 0 ? 5 : 6) : (c > 0 ? 8 : 7);
-  return kUpright;
+  if (matrix == nullptr) return;
+  const double a = matrix[0], b = matrix[1], c = matrix[3], d = matrix[4];
+  const double most = std::max({std::abs(a), std::abs(b), std::abs(c), std::abs(d)});
+  if (!(most > 0)) return;
+  const double little = 0.0175 * most;  // a degree
+  const auto none = [little](double x, double y) { return std::abs(x) < little && std::abs(y) < little; };
+  if (none(b, c)) {
+    info.turn = a > 0 ? (d > 0 ? 1 : 4) : (d > 0 ? 2 : 3);
+  } else if (none(a, d)) {
+    info.turn = b > 0 ? (c > 0 ? 5 : 6) : (c > 0 ? 8 : 7);
+  } else {
+    info.odd_turn = degrees(std::atan2(b, a));
+  }
 }
 
 }  // namespace
@@ -103,7 +114,7 @@ VideoReader::VideoReader(const std::filesystem::path& file) : parts_(std::make_u
   if (avcodec_open2(p.codec.get(), p.container.decoder, nullptr) < 0)
     throw Error(file.string() + ": cannot open this video: its decoder does not take it");
   p.info.size = {stream.codecpar->width, stream.codecpar->height};
-  p.info.turn = turn_of(stream);
+  read_turn(stream, p.info);
   p.info.claimed = stream.nb_frames;
   const AVRational aspect = av_guess_sample_aspect_ratio(p.container.format.get(), &stream, nullptr);
   if (aspect.num > 0 && aspect.den > 0) p.info.pixel_aspect = av_q2d(aspect);

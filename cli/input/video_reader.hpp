@@ -16,6 +16,7 @@ namespace sslam::cli {
 struct VideoInfo {
   cv::Size size;              // of the stored pixels
   ImageTurn turn = kUpright;  // what players do with them
+  double odd_turn = 0;        // degrees clockwise that a tag asks for and that are no right angle; 0: none
   double frame_rate = 0;      // frames a second, on average; 0: not known
   double pixel_aspect = 1;    // width of a pixel over its height; 1 also where it is not said
   bool interlaced = false;    // every other row is of another moment

@@ -154,6 +154,29 @@ TEST_CASE("a video's tag turns its frames as players do, but for a calibration o
   CHECK(contains(why, "has 64x48 pixels, and the camera 100x100"));
 }
 
+TEST_CASE("a video's tag that is no right angle is told, and one that nearly is counts as such") {
+  const testing::ScratchFolder scratch;
+  const std::string plain = testing::text_of(write_video(scratch, "plain.mp4", "mp4v", 3));
+  // a and b, of 65536: by 30 degrees, and by 90 but for what was rounded.
+  const auto with = [&](const std::string& a, const std::string& b, const std::string& c) {
+    const std::string zero = "\0\0\0\0"s, matrix = a + b + zero + c + a;
+    return open_video(scratch.write("turned.mp4", patched(plain, "tkhd", 40, matrix)));
+  };
+  SECTION("by 30 degrees") {
+    const io::Dataset dataset = with("\0\0\xdd\xb4"s, "\0\0\x80\0"s, "\xff\xff\x80\0"s);
+    REQUIRE(dataset.warnings.size() == 1);
+    CHECK(contains(dataset.warnings[0],
+                   "its tag turns it by 30 degrees, which is no multiple of 90: the "
+                   "images are read as they are stored"));
+  }
+  SECTION("by nearly 90 degrees") {
+    const io::Dataset dataset = with("\0\0\0\3"s, "\0\1\0\0"s, "\xff\xff\0\0"s);
+    CHECK(dataset.warnings.empty());
+    std::string why;
+    CHECK(cli::FrameReader(dataset).read(dataset.frames[0], why).size() == cv::Size(kHeight, kWidth));
+  }
+}
+
 TEST_CASE("images of 16 bit are read by the range that the first frames use, and it is held") {
   const testing::ScratchFolder scratch;
   const auto read = [&](const std::vector<cv::Mat>& images, std::size_t index) {
