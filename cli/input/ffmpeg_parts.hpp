@@ -9,9 +9,12 @@ extern "C" {
 }
 
 #include <cstdarg>
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <string>
 
 namespace sslam::cli::ffmpeg {
 
@@ -27,10 +30,28 @@ using CodecHandle = std::unique_ptr<AVCodecContext, Freed<avcodec_free_context>>
 using PacketHandle = std::unique_ptr<AVPacket, Freed<av_packet_free>>;
 using FrameHandle = std::unique_ptr<AVFrame, Freed<av_frame_free>>;
 
+// Where to keep what the libraries say of errors on this thread; null: nowhere.
+inline thread_local std::string* heard = nullptr;
+
 // Decoders talk of every flaw that they meet. OpenCV's writer sets FFmpeg's level of talk, but no callback.
 inline void silence() {
-  av_log_set_callback([](void*, int, const char*, va_list) {});
+  av_log_set_callback([](void*, int level, const char* format, va_list words) {
+    constexpr std::size_t kEnough = 4096;
+    if (heard == nullptr || level > AV_LOG_ERROR || heard->size() > kEnough) return;
+    char line[512];
+    std::vsnprintf(line, sizeof line, format, words);
+    *heard += line;
+  });
 }
+
+// Keeps it in `said` as long as this lives.
+class Listener {
+ public:
+  explicit Listener(std::string& said) { heard = &said; }
+  ~Listener() { heard = nullptr; }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+};
 
 inline double container_seconds(std::int64_t stamp, const AVStream& stream) {
   return static_cast<double>(stamp) * av_q2d(stream.time_base);

@@ -2,13 +2,13 @@
 #include "cli/stream/av_stream.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "cli/input/ffmpeg_parts.hpp"
 #include "cli/input/image_limit.hpp"
+#include "cli/stream/stream_trouble.hpp"
 #include "sslam/core/error.hpp"
 
 namespace sslam::cli {
@@ -41,18 +41,6 @@ bool comes_as_images(const AVFormatContext& format, const AVStream& stream) {
   return is_image_codec(stream.codecpar->codec_id) && (makes_times_up(name) || name == "rtsp");
 }
 
-std::string reason_of(int code) {
-  if (code == AVERROR_INVALIDDATA) return "sends nothing that is a video or an image";
-  if (code == AVERROR(EIO))
-    return "broke off before anything of use came; expected a stream or a video: is the host known, and is "
-           "this "
-           "no web page?";
-  if (code == AVERROR_EXIT) return "does not answer";
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  av_strerror(code, text, sizeof text);
-  return std::string("cannot be opened: ") + text;
-}
-
 }  // namespace
 
 struct AvStream::Parts {
@@ -69,6 +57,7 @@ struct AvStream::Parts {
   ffmpeg::BgrConverter to_bgr;
   bool drained = false;
   bool given = false;  // a packet
+  int ended = 0;       // why there is no further one
 
   Parts(Patience& p, std::string n) : patience(p), name(std::move(n)) {}
   Parts(const Parts&) = delete;
@@ -115,18 +104,22 @@ void AvStream::Parts::open(const std::string& url, AVDictionary* options) {
   }
   if (bytes == nullptr && url.starts_with("file:"))
     throw Error(name + ": is a file of this machine; name it without file://");
+  std::string said;
+  const ffmpeg::Listener listener(said);
+  const auto fail = [&](int why) {
+    throw Error(name + ": " + trouble_at_opening(why, bytes != nullptr ? "" : url, said, patience));
+  };
   int code = avformat_open_input(&opened, bytes != nullptr ? nullptr : url.c_str(), nullptr, &options);
   av_dict_free(&options);
   format.reset(opened);
-  if (code < 0) throw Error(name + ": " + reason_of(code));
+  if (code < 0) fail(code);
   const bool images = format->nb_streams == 1 && comes_as_images(*format, *format->streams[0]);
-  if (!images && (code = avformat_find_stream_info(format.get(), nullptr)) < 0)
-    throw Error(name + ": " + reason_of(code));
+  if (!images && (code = avformat_find_stream_info(format.get(), nullptr)) < 0) fail(code);
   const AVCodec* decoder = nullptr;
   const int best = av_find_best_stream(format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
   if (best == AVERROR_DECODER_NOT_FOUND)
     throw Error(name + ": there is no decoder for this video here; send H.264 or MJPEG");
-  if (best < 0) throw Error(name + ": sends no pictures");
+  if (best < 0) throw Error(name + ": sends sound or data, but no pictures");
   stream = format->streams[best];
   for (unsigned i = 0; i < format->nb_streams; ++i)
     if (format->streams[i] != stream) format->streams[i]->discard = AVDISCARD_ALL;
@@ -145,13 +138,14 @@ void AvStream::Parts::open_codec(const AVCodec* decoder) {
 }
 
 bool AvStream::Parts::next_packet() {
-  while (!patience.over() && av_read_frame(format.get(), packet.get()) >= 0) {
+  while (!patience.over() && (ended = av_read_frame(format.get(), packet.get())) >= 0) {
     if (packet->stream_index == stream->index && packet->size > 0) {
       patience.heard();
       return given = true;
     }
     av_packet_unref(packet.get());
   }
+  if (ended == AVERROR_EOF && format->pb != nullptr && format->pb->error < 0) ended = format->pb->error;
   if (!given && !patience.over() &&
       std::string_view(format->iformat->name).find("mp4") != std::string_view::npos)
     throw Error(
@@ -196,6 +190,13 @@ StreamFlow AvStream::flow() const {
   const bool ends = format.duration > 0 || parts_->stream->duration > 0 || parts_->stream->nb_frames > 0 ||
                     (format.pb != nullptr && avio_size(format.pb) > 0);
   return ends ? StreamFlow::kFile : StreamFlow::kRuns;
+}
+
+std::string AvStream::trouble() const {
+  // Of a video whose length nobody has said, the end looks like a broken connection.
+  const AVIOContext* const io = parts_->format->pb;
+  const bool open_end = flow() == StreamFlow::kFile && (io == nullptr || avio_size(parts_->format->pb) <= 0);
+  return trouble_while_reading(open_end ? 0 : parts_->ended, parts_->patience.over());
 }
 
 bool AvStream::read(StreamFrame& out) {

@@ -20,6 +20,7 @@ class AvStream : public StreamReader {
 
   [[nodiscard]] bool read(StreamFrame& out) override;
   [[nodiscard]] StreamFlow flow() const override;
+  [[nodiscard]] std::string trouble() const override;
 
  private:
   struct Parts;

@@ -59,21 +59,29 @@ void LiveFeed::run() {
     StreamFrame frame;
     while (reader->read(frame))
       if (!offer(std::move(frame), clock, drop)) return;
+    const std::string trouble = reader->trouble();
+    const std::string why = trouble.empty() ? "" : " (" + trouble + ")";
     reader.reset();
-    if (flow_ != StreamFlow::kRuns || stopping()) return;
-    if (number_ == 0) throw Error(shown_ + ": gives no frame");
-    reader = come_back(patience);
+    if (stopping()) return;
+    if (number_ == 0 && flow_ != StreamFlow::kWaits) throw Error(shown_ + ": gives no frame" + why);
+    if (flow_ == StreamFlow::kFile && !trouble.empty()) {
+      const std::lock_guard lock(mutex_);
+      figures_.end = shown_ + ": the video broke off after frame " + std::to_string(number_ - 1) + why +
+                     "; what follows is missing";
+    }
+    if (flow_ != StreamFlow::kRuns) return;
+    reader = come_back(patience, why);
     if (!reader) return;
     clock.reconnect();
   }
 }
 
-std::unique_ptr<StreamReader> LiveFeed::come_back(Patience& patience) {
+std::unique_ptr<StreamReader> LiveFeed::come_back(Patience& patience, const std::string& why) {
   constexpr std::chrono::milliseconds kBetween{250};
   const auto last = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                        std::chrono::duration<double>(options_.retry));
   if (options_.retry > 0)
-    print_warning(shown_ + ": lost after frame " + std::to_string(number_ - 1) + "; trying again for " +
+    print_warning(shown_ + ": lost after frame " + std::to_string(number_ - 1) + why + "; trying again for " +
                   seconds_text(options_.retry));
   while (Clock::now() < last) {
     {
@@ -95,7 +103,7 @@ std::unique_ptr<StreamReader> LiveFeed::come_back(Patience& patience) {
   const std::lock_guard lock(mutex_);
   if (!stop_)
     figures_.end =
-        shown_ + ": the stream broke off after frame " + std::to_string(number_ - 1) +
+        shown_ + ": the stream broke off after frame " + std::to_string(number_ - 1) + why +
         (options_.retry > 0 ? ", and did not come back within " + seconds_text(options_.retry) : "");
   return nullptr;
 }

@@ -64,7 +64,7 @@ class LiveFeed {
 
  private:
   void run();
-  [[nodiscard]] std::unique_ptr<StreamReader> come_back(Patience& patience);
+  [[nodiscard]] std::unique_ptr<StreamReader> come_back(Patience& patience, const std::string& why);
   // False: no further frame is wanted.
   [[nodiscard]] bool offer(StreamFrame frame, StampClock& clock, bool drop);
   [[nodiscard]] bool stopping() const;

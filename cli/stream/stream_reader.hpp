@@ -6,6 +6,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/stream/patience.hpp"
@@ -36,6 +37,8 @@ class StreamReader {
   // Waits for the next frame. False: the connection has ended or broken, or patience is over.
   [[nodiscard]] virtual bool read(StreamFrame& out) = 0;
   [[nodiscard]] virtual StreamFlow flow() const = 0;
+  // Why read() has given no frame, such as "the connection was lost"; empty: not known, or its end.
+  [[nodiscard]] virtual std::string trouble() const { return {}; }
 };
 
 // size: of the images to ask a camera for; empty: as it likes. Throws Error when there is nothing to connect

@@ -89,7 +89,7 @@ def check_lost(program, scratch):
             wanted.release()
         assert run.interrupt() == 130
         over.set()
-    assert any("lost after frame 19; trying again for 60 s" in text for text in run.texts("warning")), run.events
+    assert any("lost after frame 19 (the connection ended); trying again for 60 s" in text for text in run.texts("warning")), run.events
     found = figures(scratch / "out")
     assert (found["frames"], found["stream_losses"]) == (FRAMES, 1), found
     stamps = [float(row["stamp"]) for row in rows(scratch / "out")]

@@ -105,6 +105,12 @@ def check_video(program, scratch):
         assert (found["frames"], found["frames_dropped"]) == (FRAMES, 0), found
         # But for the stamps, which a stream has in whole microseconds.
         same_tracking(scratch / name, scratch / "file", stamps=False)
+    # Cut off in the middle: what came is tracked, and that something is missing is told.
+    with Camera(lambda number, send: send(answers["avi"][: 2 * len(answers["avi"]) // 3])) as camera:
+        run = Run(program, camera.address, *options, "--out", scratch / "cut")
+        run.end()
+    assert 0 < figures(scratch / "cut")["frames"] < FRAMES, run.events
+    assert any("the video broke off after frame" in text and "what follows is missing" in text for text in run.texts("warning")), run.events
     # OpenCV writes MP4 with its index at the end, where a stream does not get in time.
     with Camera(lambda number, send: send(answers["mp4"])) as camera:
         run = Run(program, camera.address, *options, "--out", scratch / "none")
@@ -161,11 +167,25 @@ def check_refusals(program, scratch):
         port = free.getsockname()[1]
     refused(f"http://127.0.0.1:{port}/x", words="Connection refused")
     refused(f"rtsp://127.0.0.1:{port}/x", words="Connection refused")
-    refused("nonsense://here", words="nonsense://here: cannot be opened: Protocol not found")
+    refused("nonsense://here", words="nonsense://here: 'nonsense' is no protocol that is read here; expected http, https, rtsp")
+    refused("ftp://127.0.0.1/x", words="'ftp' is no protocol that is read here")
+    # A name that RFC 2606 gives to nobody.
+    refused("http://camera.invalid/x", words="there is no host 'camera.invalid'")
+    refused("rtsp://user:secret@camera.invalid:554/x", words="user:...@camera.invalid:554/x: there is no host 'camera.invalid'")
     page = b"<html>" + b"a page, and no camera " * 500
     answer = b"HTTP/1.1 200 OK\r\nContent-Type: text/html\r\n\r\n" + page
     with Camera(lambda number, send: send(answer)) as camera:
-        refused(camera.address, words="broke off before anything of use came")
+        refused(camera.address, words="is a web page; expected the address of the stream itself")
+    with Camera(lambda number, send: send(b"HTTP/1.1 200 OK\r\nContent-Type: application/json\r\n\r\n{}")) as camera:
+        refused(camera.address, words="sends 'application/json', and no video or images")
+    with Camera(lambda number, send: send(b"HTTP/1.1 200 OK\r\n\r\n")) as camera:
+        refused(camera.address, words="answers, but sends nothing")
+    with Camera(lambda number, send: None) as camera:
+        refused(camera.address, words="closes the connection without an answer")
+    with Camera(lambda number, send: send(b"HTTP/1.1 401 Unauthorized\r\n\r\n")) as camera:
+        refused(camera.address, words="wants a user and a password, or other ones (401 Unauthorized); expected http://USER:PASSWORD@127.0.0.1/")
+    with Camera(lambda number, send: send(b"HTTP/1.1 503 Busy\r\n\r\n")) as camera:
+        refused(camera.address, words="the server has failed")
     with Camera(lambda number, send: send(b"HTTP/1.1 404 Not Found\r\n\r\n")) as camera:
         refused(camera.address, words="404 Not Found")
     (scratch / "there").mkdir()
