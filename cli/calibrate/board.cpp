@@ -6,6 +6,7 @@
 #include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "cli/input/image_camera.hpp"
 #include "cli/shell/exit_code.hpp"
@@ -52,6 +53,32 @@ bool has_chessboard(const cv::Mat& grey, int columns, int rows, std::vector<cv::
   return true;
 }
 
+// What somebody may have meant by a side of so many metres: " for 25 mm --square 0.025", in the units that
+// make a board that one can hold.
+std::string in_other_units(double square, double marker) {
+  constexpr double kSmallest = 0.004, kLargest = 0.3;  // metres
+  std::string text;
+  for (const auto& [unit, per_metre] : {std::pair{"mm", 1000.0}, {"cm", 100.0}, {"in", 1 / 0.0254}}) {
+    const double metres = square / per_metre;
+    if (metres < kSmallest || metres > kLargest || (per_metre < 100 && !text.empty())) continue;
+    text += cv::format("%s for %g %s type --square %g", text.empty() ? "" : ",", square, unit, metres);
+    if (marker > 0) text += cv::format(" --marker %g", marker / per_metre);
+  }
+  return text;
+}
+
+// The side of a square is in metres, and people measure it in millimetres.
+void refuse_huge(const BoardSettings& settings) {
+  constexpr double kLargest = 6;  // metres; what hangs on walls of laboratories is smaller
+  const int squares =
+      std::max(settings.columns, settings.rows) + (settings.pattern == Pattern::kChessboard ? 1 : 0);
+  if (squares * settings.square <= kLargest) return;
+  const std::string other = in_other_units(settings.square, settings.marker);
+  throw UsageError(cv::format("--square %g: is in metres, and makes a board %g m long;", settings.square,
+                              squares * settings.square) +
+                   (other.empty() ? " expected the side of one square in metres, such as 0.025" : other));
+}
+
 }  // namespace
 
 std::string dictionary_names() {
@@ -61,6 +88,7 @@ std::string dictionary_names() {
 }
 
 Board::Board(const BoardSettings& settings) : settings_(settings) {
+  refuse_huge(settings);
   if (settings.pattern == Pattern::kChessboard) return;
   const auto* const dictionary =
       std::find_if(kDictionaries.begin(), kDictionaries.end(),

@@ -23,5 +23,16 @@ sslam_cli_test(NAME "calibrate with a large marker" ARGS calibrate ${image} --pa
 sslam_cli_test(NAME "calibrate with a wrong size" ARGS calibrate ${image} --size 9 CODE 2 ERR "--size: '9' is not a size such as 9x6")
 sslam_cli_test(NAME "calibrate with an unknown pattern" ARGS calibrate ${image} --pattern circles CODE 2 ERR "sslam: error: --pattern")
 sslam_cli_test(NAME "calibrate with no square" ARGS calibrate ${image} --square 0 CODE 2 ERR "sslam: error: --square")
+# Squares that were measured in millimetres, centimetres or inches; a large board that may be.
+sslam_cli_test(NAME "calibrate with squares in millimetres" ARGS calibrate ${image} --square 25 CODE 2
+               ERR "^sslam: error: --square 25: is in metres, and makes a board 250 m long; for 25 mm type --square 0.025, for 25 cm type --square 0.25\n$")
+sslam_cli_test(NAME "calibrate with squares and markers in millimetres" ARGS calibrate ${image} --pattern charuco --size 5x7 --square 40 --marker 30 CODE 2
+               ERR "makes a board 280 m long; for 40 mm type --square 0.04 --marker 0.03\n$")
+sslam_cli_test(NAME "calibrate with squares in centimetres" ARGS calibrate ${image} --square 2.5 CODE 2
+               ERR "; for 2.5 cm type --square 0.025\n$")
+sslam_cli_test(NAME "print a board in millimetres" ARGS calibrate --print ${folder}/huge.pdf --square 25 CODE 2 ERR "for 25 mm type --square 0.025")
+sslam_cli_test(NAME "calibrate with a square of a hundred kilometres" ARGS calibrate ${image} --square 100000 CODE 2
+               ERR "expected the side of one square in metres, such as 0.025\n$")
+sslam_cli_test(NAME "calibrate with a large board" ARGS calibrate ${image} --square 0.5 CODE 1 ERR "^sslam: error: [^\n]*\n$")
 sslam_cli_test(NAME "calibrate without images" ARGS calibrate CODE 2 ERR "^sslam: error: IMAGES is required")
 sslam_cli_test(NAME "calibrate explains itself" ARGS calibrate --help OUT "--pattern" "--size" "4x4_50" "Exit codes: 0 success")
