@@ -10,8 +10,10 @@
 
 #include "cli/input/camera_fit.hpp"
 #include "cli/input/exif_focal.hpp"
+#include "cli/input/size_text.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/datasets/known_cameras.hpp"
+#include "sslam/io/files/text.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
 #include "sslam/opencv/camera/wide_view.hpp"
 
@@ -61,14 +63,39 @@ void complete_depth(CameraChoice& choice, const io::Dataset& dataset) {
   if (const auto known = io::known_camera_for(dataset)) choice.depth_factor = known->depth_factor;
 }
 
-}  // namespace
-
-CameraChoice camera_from_file(const std::filesystem::path& path) {
-  const CameraFile file = read_wide_camera_file(path);
-  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, path.string(), file.notes, {}, false};
+CameraChoice choice_of(const CameraFile& file, const std::string& source) {
+  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, source, file.notes, {}, false};
   choice.wide = file.wide;
   choice.view_across = file.view_across;
   return choice;
+}
+
+}  // namespace
+
+CameraChoice camera_from_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::string whole = path.string();
+  const std::size_t mark = std::filesystem::exists(path, ignored) ? std::string::npos : whole.rfind('#');
+  const std::string file = whole.substr(0, mark);
+  CameraFile read = read_wide_camera_file(file);
+  std::vector<CameraFile> all;
+  if (!read.others.empty()) {
+    all = std::exchange(read.others, {});
+    all.insert(all.begin(), read);
+  }
+  if (mark == std::string::npos) {
+    CameraChoice choice = choice_of(read, whole);
+    choice.all = std::move(all);
+    return choice;
+  }
+  const std::string name = whole.substr(mark + 1);
+  std::string names;
+  for (const CameraFile& camera : all) {
+    if (camera.name == name) return choice_of(camera, whole);
+    io::add_to_list(names, camera.name);
+  }
+  throw Error(file + ": has no camera '" + name + "'; " +
+              (names.empty() ? "it has one alone: leave '#" + name + "' out" : "it has " + names));
 }
 
 std::optional<CameraChoice> find_camera(const std::string& wanted, const io::Dataset& dataset) {
@@ -140,6 +167,35 @@ CameraChoice assumed_camera(const io::Dataset& dataset, int width, int height) {
 
 }  // namespace
 
+void pick_camera(CameraChoice& choice, int width, int height) {
+  if (choice.all.empty()) return;
+  const auto fitting = [&](auto fits) {
+    std::vector<const CameraFile*> found;
+    for (const CameraFile& file : choice.all)
+      if (fits(file.camera)) found.push_back(&file);
+    return found;
+  };
+  std::vector<const CameraFile*> found =
+      fitting([&](const Camera<double>& c) { return c.width == width && c.height == height; });
+  if (found.empty())
+    found = fitting([&](const Camera<double>& c) {
+      return c.width > 0 && std::abs(static_cast<double>(width) * c.height / c.width - height) <= 1;
+    });
+  std::string all, fit;
+  for (const CameraFile& file : choice.all) io::add_to_list(all, camera_names(file));
+  for (const CameraFile* file : found) io::add_to_list(fit, file->name);
+  const std::string images = size_text(width, height);
+  if (found.size() != 1)
+    throw Error(choice.source + ": has several cameras: " + all + "; for images of " + images + " " +
+                (found.empty() ? "none fits" : "these fit: " + fit) + "; name one, as in --camera " +
+                choice.source + "#" + (found.empty() ? choice.all.front() : *found.front()).name);
+  CameraChoice picked = choice_of(*found.front(), choice.source);
+  picked.depth_factor = choice.depth_factor;
+  picked.notes.insert(picked.notes.begin(), choice.source + ": has several cameras: " + all + "; " + fit +
+                                                " is taken, the only one for images of " + images);
+  choice = std::move(picked);
+}
+
 void take_size(CameraChoice& choice, int width, int height) {
   if (choice.view_across == 0) return;
   const double focal = focal_of_view(degrees(choice.view_across), width);
@@ -182,6 +238,7 @@ CameraChoice choose_camera(const CameraWish& wish, const io::Dataset& dataset, i
   if (!choice) choice = find_camera(wish.file, dataset);
   if (!choice) choice = assumed_camera(dataset, width, height);
   complete_depth(*choice, dataset);
+  pick_camera(*choice, width, height);
   take_size(*choice, width, height);
   fit_camera(choice->camera, width, height, choice->source, choice->notes, choice->warnings);
   take_view(*choice, wish.undistort_fov);

@@ -11,6 +11,7 @@
 
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/opencv/camera/camera_keys.hpp"
 #include "sslam/opencv/camera/wide_lens.hpp"
 
 namespace sslam::cli {
@@ -33,10 +34,11 @@ struct CameraChoice {
   double focal_sigma = 0.05;       // how far the focal length may be off, as a part of it
   std::optional<WideLens> wide{};  // of the images, where `camera` is that of a view of them
   double view_fov = 0;             // of that view, degrees across
-  double view_across = 0;          // radians, of a camera of which nothing else is known; 0: `camera` is
+  std::vector<CameraFile> all{};  // of a file with several; `camera` is that of one when pick_camera has been
+  double view_across = 0;         // radians, of a camera of which nothing else is known; 0: `camera` is
 };
 
-// Of a camera file. Throws Error when it is wrong.
+// Of a camera file, or of FILE#NAME with the name of one of its cameras. Throws Error when it is wrong.
 [[nodiscard]] CameraChoice camera_from_file(const std::filesystem::path& path);
 
 // A depth factor that the chosen file leaves out is taken from the published values of the dataset, where
@@ -52,6 +54,10 @@ inline constexpr double kUnknownFocal = 0.4;
 
 // What --focal or --fov make of images of this size; nothing where neither is given.
 [[nodiscard]] std::optional<CameraChoice> wished_camera(const CameraWish& wish, int width, int height);
+
+// Of several cameras, takes the one that is for images of this size, else of this shape, with a note. Throws
+// Error where none is, or several are.
+void pick_camera(CameraChoice& choice, int width, int height);
 
 // Of a camera of which only the field of view is known: makes it that of images of this size.
 void take_size(CameraChoice& choice, int width, int height);

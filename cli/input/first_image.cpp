@@ -89,8 +89,8 @@ void tell_range(const io::Dataset& dataset, cv::Size camera) {
 CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& dataset) {
   const bool wished = wish.focal > 0 || wish.fov > 0;
   const std::optional<CameraChoice> known = wished ? std::nullopt : find_camera(wish.file, dataset);
-  const bool placed = known && known->view_across == 0;  // its centre tells how the images are held
-  const cv::Size claimed = known ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
+  const bool placed = known && known->view_across == 0 && known->all.empty();  // tells how images are held
+  const cv::Size claimed = placed ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
   const FirstImage first = find_first_image(dataset, claimed);
   if (first.stored.empty()) {
     if (dataset.bag) throw Error(first.why);  // its other messages are alike

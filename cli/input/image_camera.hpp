@@ -44,6 +44,7 @@ class ImageCamera {
                  size_text(width, height) + " (--camera gives another)");
       return;
     }
+    pick_camera(*known_, width, height);
     take_size(*known_, width, height);
     fit_camera(known_->camera, width, height, known_->source, known_->notes, known_->warnings);
     take_view(*known_, wish_.undistort_fov);

@@ -54,7 +54,7 @@ cv::Size size_of_stream_camera(const RunSettings& settings) {
   io::Dataset stream;
   stream.layout = io::Layout::kStream;
   const std::optional<CameraChoice> known = find_camera(settings.camera, stream);
-  return known ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
+  return known && known->all.empty() ? cv::Size(known->camera.width, known->camera.height) : cv::Size();
 }
 
 CameraChoice choose_stream_camera(const RunSettings& settings, const io::Dataset& dataset, cv::Size size) {

@@ -7,6 +7,7 @@
 #include "sslam/opencv/camera/camera_keys.hpp"
 #include "sslam/opencv/camera/camera_rows.hpp"
 #include "sslam/opencv/camera/camera_trees.hpp"
+#include "sslam/opencv/camera/depthai_cameras.hpp"
 #include "sslam/opencv/camera/lens_fit.hpp"
 #include "sslam/opencv/camera/lens_reader.hpp"
 #include "sslam/opencv/camera/lens_table.hpp"

@@ -23,6 +23,8 @@ struct Lens {
 
 cli::CameraChoice choose(const std::filesystem::path& path, double fov) {
   cli::CameraChoice choice = cli::camera_from_file(path);
+  if (!choice.all.empty())
+    throw Error(choice.source + ": has several cameras; name one, as in FILE#" + choice.all.front().name);
   if (!choice.wide)
     throw Error(choice.source + ": has a lens that is not too wide for a pinhole; use sslam.Camera");
   const Camera<double>& camera = choice.camera;

@@ -165,4 +165,31 @@ TEST_CASE("A COLMAP camera in binary form is read") {
   CHECK(choice.camera.pinhole.cx == 319.5);
 }
 
+TEST_CASE("Of several cameras the one whose size fits is taken with a note, else they are asked for") {
+  Room room;
+  const auto camera = [](int socket, int focal, int width, int height) {
+    return "[" + std::to_string(socket) + ", {\"intrinsicMatrix\": [[" + std::to_string(focal) + ", 0, " +
+           std::to_string(width / 2) + "], [0, " + std::to_string(focal) + ", " + std::to_string(height / 2) +
+           "], [0, 0, 1]], \"width\": " + std::to_string(width) + ", \"height\": " + std::to_string(height) +
+           "}]";
+  };
+  const std::string file =
+      room.scratch
+          .write("oak.json", "{\"cameraData\": [" + camera(0, 1500, 1920, 1080) + "," +
+                                 camera(1, 800, 1280, 800) + "," + camera(2, 801, 1280, 800) + "]}")
+          .string();
+  const cli::CameraChoice colour = room.choose(1920, 1080, {file});
+  CHECK(colour.camera.pinhole.fx == 1500);
+  REQUIRE(colour.notes.size() == 1);
+  CHECK(contains(colour.notes[0], "CAM_A is taken, the only one for images of 1920x1080"));
+  CHECK(room.choose(960, 540, {file}).camera.pinhole.fx == 750);
+  const std::string several = testing::error_of([&] { (void)room.choose(1280, 800, {file}); });
+  CHECK(contains(several, "for images of 1280x800 these fit: CAM_B, CAM_C; name one, as in --camera " + file +
+                              "#CAM_B"));
+  CHECK(contains(testing::error_of([&] { (void)room.choose(640, 480, {file}); }), "none fits; name one"));
+  CHECK(room.choose(1280, 800, {file + "#CAM_C"}).camera.pinhole.fx == 801);
+  CHECK(contains(testing::error_of([&] { (void)room.choose(1280, 800, {file + "#CAM_D"}); }),
+                 "has no camera 'CAM_D'; it has CAM_A, CAM_B, CAM_C"));
+}
+
 }  // namespace camera_choice_test

@@ -2,8 +2,11 @@
 // Camera files of other SLAM and photogrammetry programs, of other encodings, and files that are no camera.
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "io/errors.hpp"
 #include "sslam/opencv/camera/camera_file.hpp"
@@ -193,3 +196,84 @@ TEST_CASE("Files that hold no camera are told by their kind") {
 }
 
 }  // namespace program_cameras_test
+
+namespace program_cameras_test {
+namespace {
+
+// A camera of an OAK as DepthAI writes it.
+std::string depthai_camera(int socket, int type, double focal, int width, int height,
+                           const std::string& lens) {
+  const auto text = [](double value) { return std::to_string(value); };
+  return "[" + std::to_string(socket) + ", {\"cameraType\": " + std::to_string(type) +
+         ", \"distortionCoeff\": [" + lens +
+         "],\n \"extrinsics\": {\"rotationMatrix\": [], \"toCameraSocket\": 1}, \"height\": " +
+         std::to_string(height) + ",\n \"intrinsicMatrix\": [[" + text(focal) + ", 0.0, " +
+         text(width / 2.0) + "], [0.0, " + text(focal) + ", " + text(height / 2.0) +
+         "], [0.0, 0.0, 1.0]], \"lensPosition\": 0, \"specHfovDeg\": 71.0, \"width\": " +
+         std::to_string(width) + "}]";
+}
+
+std::string depthai(const std::string& cameras) {
+  return "{\"batchName\": \"\", \"boardName\": \"BW1098OBC\", \"cameraData\": [" + cameras +
+         "],\n \"stereoRectificationData\": {\"leftCameraSocket\": 1}, \"version\": 7}";
+}
+
+constexpr const char* kStraight = "0,0,0,0,0,0,0,0,0,0,0,0,0,0";
+
+}  // namespace
+}  // namespace program_cameras_test
+
+TEST_CASE("DepthAI's calibration of an OAK: all its cameras, by the names of their sockets") {
+  using namespace program_cameras_test;
+  const CameraFile file = read_as(
+      depthai(depthai_camera(2, 0, 800, 1280, 800, kStraight) + ", " +
+              depthai_camera(0, 0, 3000, 3840, 2160, "0.1,-0.2,0.001,0.002,0.05,0,0,0,0,0,0,0,0,0") + ", " +
+              depthai_camera(1, 1, 560, 1280, 800, "0.1,0.02,-0.01,0.002,0,0,0,0,0,0,0,0,0,0")));
+  CHECK(file.name == "CAM_C");
+  check_plane(file, {800, 800, 640, 400}, 1280, 800);
+  REQUIRE(file.others.size() == 2);
+  CHECK(file.others[0].name == "CAM_A");
+  check_plane(file.others[0], {3000, 3000, 1920, 1080}, 3840, 2160);
+  CHECK(std::abs(file.others[0].camera.distortion.k1 - 0.1) < 1e-3);
+  CHECK(camera_names(file) == "CAM_C (1280x800), CAM_A (3840x2160), CAM_B (1280x800)");
+}
+
+TEST_CASE("DepthAI's calibration: one camera alone, none that is calibrated, and several for who takes one") {
+  using namespace program_cameras_test;
+  const std::string none =
+      "[3, {\"intrinsicMatrix\": [[0,0,0],[0,0,0],[0,0,0]], \"width\": 0, \"height\": 0}]";
+  const CameraFile file = read_as(depthai(none + "," + depthai_camera(0, 0, 3000, 3840, 2160, kStraight)));
+  CHECK(file.name == "CAM_A");
+  CHECK(file.others.empty());
+  check_refusal(depthai(none), "this device was never calibrated");
+  check_refusal(depthai("[7]"), "cameraData[0] is no pair; expected pairs of a socket and its camera");
+  check_refusal(depthai(depthai_camera(0, 2, 3000, 3840, 2160, kStraight)),
+                "CAM_A: cameraType is 2; expected 0 (perspective) or 1 (fisheye)");
+  const testing::ScratchFolder folder;
+  const auto both = folder.write("oak.json", depthai(depthai_camera(1, 0, 800, 1280, 800, kStraight) + "," +
+                                                     depthai_camera(2, 0, 801, 1280, 800, kStraight)));
+  CHECK(testing::error_of([&] {
+          (void)read_camera_file(both);
+        }).find("has several cameras: CAM_B (1280x800), CAM_C (1280x800); expected one") !=
+        std::string::npos);
+}
+
+TEST_CASE("Coefficients of a thin prism and of a tilted sensor are fitted, too") {
+  using namespace program_cameras_test;
+  // By OpenCV's own projection of a ray.
+  const std::string lens =
+      "-0.1,0.05,0.001,-0.002,0.01,0.02,0.01,0.005,0.0005,-0.0002,0.0003,0.0001,0.0015,-0.001";
+  const CameraFile file = read_as(depthai(depthai_camera(0, 0, 800, 1280, 800, lens)));
+  REQUIRE(file.notes.size() == 1);
+  const std::vector<double> k{-0.1,  0.05,   0.001,   -0.002, 0.01,   0.02,   0.01,
+                              0.005, 0.0005, -0.0002, 0.0003, 0.0001, 0.0015, -0.001};
+  const cv::Matx33d matrix(800, 0, 640, 0, 800, 400, 0, 0, 1);
+  for (const auto& [x, y] : {std::pair{0.3, 0.2}, {-0.6, 0.3}, {0.5, -0.4}, {0.0, 0.0}}) {
+    std::vector<cv::Point2d> pixel;
+    cv::projectPoints(std::vector<cv::Point3d>{{x, y, 1}}, cv::Vec3d(), cv::Vec3d(), matrix, k, pixel);
+    const Vec2<double> bent = file.camera.distortion.distort(Vec2<double>(x, y));
+    const double off = std::hypot(800 * bent.x() + 640 - pixel[0].x, 800 * bent.y() + 400 - pixel[0].y);
+    INFO(x << " " << y << " " << off);
+    CHECK(off < 0.5);
+  }
+}

@@ -25,6 +25,15 @@
 namespace sslam {
 namespace detail {
 
+// A wide lens gets the plane and the size that the file has by now.
+inline void complete_wide(CameraFile& read) {
+  for (CameraFile& other : read.others) complete_wide(other);
+  if (!read.wide) return;
+  read.wide->pinhole = read.camera.pinhole;
+  read.wide->width = read.camera.width;
+  read.wide->height = read.camera.height;
+}
+
 // As UTF-8 with plain line ends.
 [[nodiscard]] inline std::string read_camera_text(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -112,6 +121,8 @@ namespace detail {
 // As read_camera_file, of text that is no file; `source` says where it is from.
 [[nodiscard]] inline CameraFile parse_camera_text(const std::string& text, const std::string& source) {
   CameraFile read = detail::read_any_camera(text, source);
+  if (!read.others.empty())
+    throw Error(source + ": has several cameras: " + camera_names(read) + "; expected one: keep it alone");
   if (read.wide) throw Error(read.wide_reason);
   if (read.view_across > 0)
     throw Error(source + ": camera_angle_x without w and h; give --fov " +
@@ -119,15 +130,11 @@ namespace detail {
   return read;
 }
 
-// Also of a lens that is too wide for a pinhole, `wide` of the answer, and of a file that says no more than
-// `view_across`. Throws Error as read_camera_file.
+// Also of a lens that is too wide for a pinhole, `wide` of the answer, of a file that says no more than
+// `view_across`, and of several cameras: `others` of the answer. Throws Error as read_camera_file.
 [[nodiscard]] inline CameraFile read_wide_camera_file(const std::filesystem::path& path) {
   CameraFile read = detail::read_any_camera(detail::read_camera_text(path), path.string());
-  if (read.wide) {
-    read.wide->pinhole = read.camera.pinhole;
-    read.wide->width = read.camera.width;
-    read.wide->height = read.camera.height;
-  }
+  detail::complete_wide(read);
   return read;
 }
 

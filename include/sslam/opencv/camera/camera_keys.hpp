@@ -25,8 +25,19 @@ struct CameraFile {
   std::string wide_reason{};  // why it is none
   // Radians across, where that is all that the file says, without the image's size: `camera` is empty then.
   double view_across = 0;
+  // Of a file with several cameras whose images it does not tell: their names, and all but this one.
+  std::string name{};
+  std::vector<CameraFile> others{};
   std::vector<std::string> notes{};  // what the user should know about how the file was read
 };
+
+// "CAM_A (1280x800), CAM_B (640x400)": of all cameras of a file with several.
+[[nodiscard]] inline std::string camera_names(const CameraFile& file) {
+  std::string names =
+      file.name + " (" + std::to_string(file.camera.width) + "x" + std::to_string(file.camera.height) + ")";
+  for (const CameraFile& other : file.others) names += ", " + camera_names(other);
+  return names;
+}
 
 namespace detail {
 

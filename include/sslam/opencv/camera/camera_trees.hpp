@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "sslam/opencv/camera/depthai_cameras.hpp"
 #include "sslam/opencv/camera/matrix_cameras.hpp"
 #include "sslam/opencv/camera/named_cameras.hpp"
 #include "sslam/opencv/camera/photo_cameras.hpp"
@@ -36,6 +37,7 @@ namespace detail {
     if (keys.has("model_type")) return read_vins(keys);
     if (keys.has("cam0_calib")) refuse_vins_settings(keys);
     if (keys.has("value0")) return read_basalt(keys);
+    if (is_depthai(root)) return read_depthai(keys);
     if (is_opensfm(root)) return read_opensfm(keys);
     if (lists_cameras(root)) return read_listed_cameras(keys);
     if (const TextNode* const list = root.find("cameras");

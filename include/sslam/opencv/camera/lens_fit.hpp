@@ -20,14 +20,31 @@ struct LensSample {
   Vec2<double> straight, seen;
 };
 
-// k1 k2 p1 p2 k3 k4 k5 k6 of OpenCV's rational model.
-[[nodiscard]] inline LensSample rational_sample(const std::array<double, 8>& k, const Vec2<double>& m) {
+// The tilt of the sensor about x and y, radians, as OpenCV's calibration module has it.
+[[nodiscard]] inline Vec2<double> tilted(double tau_x, double tau_y, const Vec2<double>& m) {
+  const double cx = std::cos(tau_x), sx = std::sin(tau_x), cy = std::cos(tau_y), sy = std::sin(tau_y);
+  Mat3<double> about_x, about_y;
+  about_x << 1, 0, 0, 0, cx, sx, 0, -sx, cx;
+  about_y << cy, 0, -sy, 0, 1, 0, sy, 0, cy;
+  const Mat3<double> turn = about_y * about_x;
+  Mat3<double> onto = Mat3<double>::Identity();
+  onto(0, 0) = onto(1, 1) = turn(2, 2);
+  onto(0, 2) = -turn(0, 2);
+  onto(1, 2) = -turn(1, 2);
+  const Vec3<double> seen = onto * turn * Vec3<double>(m.x(), m.y(), 1);
+  return seen.head<2>() / seen.z();
+}
+
+// k1 k2 p1 p2 k3 k4 k5 k6 of OpenCV's rational model, s1 to s4 of a thin prism, tau_x and tau_y of a tilt.
+[[nodiscard]] inline LensSample rational_sample(const std::array<double, 14>& k, const Vec2<double>& m) {
   const double r2 = m.squaredNorm();
   const RadTan<double> above{k[0], k[1], 0, 0, k[4]}, below{k[5], k[6], 0, 0, k[7]},
       sideways{0, 0, k[2], k[3], 0};
   const double factor = (1 + r2 * (above.k1 + r2 * (above.k2 + r2 * above.k3))) /
                         (1 + r2 * (below.k1 + r2 * (below.k2 + r2 * below.k3)));
-  return {m, m * factor + sideways.distort(m) - m};
+  const Vec2<double> prism(r2 * (k[8] + r2 * k[9]), r2 * (k[10] + r2 * k[11]));
+  const Vec2<double> seen = m * factor + sideways.distort(m) - m + prism;
+  return {m, k[12] == 0 && k[13] == 0 ? seen : tilted(k[12], k[13], seen)};
 }
 
 // k1 to k4 of Kannala and Brandt 2006, as OpenCV's fisheye module has them.

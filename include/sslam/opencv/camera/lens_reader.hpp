@@ -57,7 +57,7 @@ template <std::size_t N>
       });
     }
     default:
-      return fit_lens(camera, [k = leading<8>(keys, model, values)](const Vec2<double>& m) {
+      return fit_lens(camera, [k = leading<14>(keys, model, values)](const Vec2<double>& m) {
         return rational_sample(k, m);
       });
   }
