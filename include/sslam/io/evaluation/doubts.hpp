@@ -13,6 +13,7 @@
 
 #include "sslam/io/evaluation/alignment.hpp"
 #include "sslam/io/evaluation/paired_poses.hpp"
+#include "sslam/io/evaluation/reflection.hpp"
 #include "sslam/io/evaluation/statistics.hpp"
 
 namespace sslam::io {
@@ -94,6 +95,11 @@ inline constexpr const char* kWFirst = "have w first: the rotations would agree;
   consider({paired.truth, changed(paired.estimate, invert)},
            "the estimate's poses seem to be world to camera: the rotations would agree; expected camera to "
            "world");
+  for (int axis = 0; axis < 3; ++axis)
+    consider(
+        {paired.truth, changed(paired.estimate, [axis](SE3<double>& pose) { pose = mirrored(pose, axis); })},
+        std::string("the estimate seems to be a mirror image of the ground truth: with its ") + "xyz"[axis] +
+            " negated the rotations would agree (ground truth with y up: --axes)");
   return best;
 }
 
@@ -129,7 +135,10 @@ inline constexpr const char* kWFirst = "have w first: the rotations would agree;
   if (on_a_line(truth) || on_a_line(estimate))
     notes.emplace_back(
         "the positions lie on a line: the turn about it is open, and with it the row 'rotation'");
-  if (const std::string reading = better_reading(paired); !reading.empty()) notes.push_back(reading);
+  if (std::string mirror = reflection_note(paired, alignment, rmse); !mirror.empty())
+    notes.push_back(std::move(mirror));
+  else if (const std::string reading = better_reading(paired); !reading.empty())
+    notes.push_back(reading);
   const double spread = spread_of(truth);
   if (alignment == Alignment::kSim3 && rmse > kNoLikeness * spread)
     notes.emplace_back(
