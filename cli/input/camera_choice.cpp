@@ -34,9 +34,10 @@ CameraChoice camera_from_known(const io::KnownCamera& known) {
 }
 
 // Names that camera files have where programs put them beside the images.
-constexpr std::array<std::string_view, 9> kOwnCameraFiles{
-    "camera.yaml",      "camera.yml",  "camera.json", "camera.txt",     "camera_info.yaml",
-    "cam0/sensor.yaml", "sensor.yaml", "cameras.txt", "transforms.json"};
+constexpr std::array<std::string_view, 11> kOwnCameraFiles{
+    "camera.yaml",      "camera.yml",        "camera.json", "camera.txt",
+    "camera_info.yaml", "cam0/sensor.yaml",  "sensor.yaml", "cameras.txt",
+    "transforms.json",  "camera_matrix.csv", "ost.yaml"};
 
 // The camera file that lies in the dataset, or beside the video, else the one of its layout; empty: none.
 std::filesystem::path own_camera_file(const io::Dataset& dataset) {

@@ -379,7 +379,8 @@ TEST_CASE("A folder that is nearly a dataset is told what it lacks") {
   SECTION("a transforms.json of another name, or without its images") {
     scratch.write("transforms_train.json", "{}");
     CHECK(said(
-        "looks like nerfstudio or instant-ngp: transforms.json with a file_path in its frames is missing"));
+        "looks like nerfstudio or instant-ngp: transforms.json, or transforms_train.json, with a file_path "
+        "in its frames is missing"));
   }
   SECTION("folders and videos below it") {
     scratch.write("walks/one/1.png");

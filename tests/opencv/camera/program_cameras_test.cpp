@@ -277,3 +277,59 @@ TEST_CASE("Coefficients of a thin prism and of a tilted sensor are fitted, too")
     CHECK(off < 0.5);
   }
 }
+
+TEST_CASE("Cameras of SVO, mrcal, Gyroflow, MonoGS, a stereo pair of OpenCV and ARKitScenes") {
+  using namespace program_cameras_test;
+  const CameraFile svo = read_as(
+      "label: rig\ncameras:\n- camera:\n    label: cam0\n    image_height: 480\n    image_width: 752\n"
+      "    type: pinhole\n    intrinsics:\n      cols: 1\n      rows: 4\n      data: [461.5, 460.25, 363, "
+      "248.5]\n"
+      "    distortion:\n      type: radial-tangential\n      parameters:\n        cols: 1\n        rows: 4\n"
+      "        data: [-0.25, 0.125, 0.001, -0.002]\n");
+  check_plane(svo, kPlane, 752, 480);
+  check_lens(svo, {-0.25, 0.125, 0.001, -0.002, 0});
+  const CameraFile mrcal = read_as(
+      "{\n    'lensmodel':  'LENSMODEL_OPENCV5',\n    # fx,fy,cx,cy,distortion0,...\n"
+      "    'intrinsics': [ 461.5, 460.25, 363, 248.5, -0.25, 0.125, 0.001, -0.002, 0.5],\n"
+      "    'imagersize': [ 752, 480 ],\n}\n");
+  check_plane(mrcal, kPlane, 752, 480);
+  check_refusal(
+      "{'lensmodel': 'LENSMODEL_SPLINED_STEREOGRAPHIC_order=3', 'intrinsics': [1,2,3,4], "
+      "'imagersize': [752, 480]}",
+      "LENSMODEL_SPLINED_STEREOGRAPHIC");
+  const CameraFile gyroflow = read_as(
+      "{\"name\": \"GoPro\", \"calib_dimension\": {\"w\": 752, \"h\": 480}, \"fps\": 59.94, "
+      "\"fisheye_params\": "
+      "{\"camera_matrix\": [[461.5, 0, 363], [0, 460.25, 248.5], [0, 0, 1]], "
+      "\"distortion_coeffs\": [0.05, 0.01, 0, 0]}}");
+  check_plane(gyroflow, kPlane, 752, 480);
+  CHECK(gyroflow.frame_rate == 59.94);
+  check_plane(read_as("Dataset:\n  type: tum\n  Calibration:\n    fx: 461.5\n    fy: 460.25\n    cx: 363\n"
+                      "    cy: 248.5\n    width: 752\n    height: 480\n"),
+              kPlane, 752, 480);
+  const CameraFile pair = read_as(
+      "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+      "   data: [ 461.5, 0., 363., 0., 460.25, 248.5, 0., 0., 1. ]\nD1: !!opencv-matrix\n   rows: 1\n"
+      "   cols: 5\n   dt: d\n   data: [ -0.25, 0.125, 0., 0., 0. ]\nM2: !!opencv-matrix\n   rows: 3\n"
+      "   cols: 3\n   dt: d\n   data: [ 1., 0., 3., 0., 1., 2., 0., 0., 1. ]\n");
+  check_plane(pair, kPlane, 0, 0);
+  check_lens(pair, {-0.25, 0.125, 0, 0, 0});
+  REQUIRE(pair.notes.size() == 1);
+  CHECK(pair.notes[0].find("has two cameras; the first, M1 and D1, is taken") != std::string::npos);
+  const CameraFile pincam = read_as("752 480 461.5 460.25 363 248.5\n");
+  check_plane(pincam, kPlane, 752, 480);
+  CHECK(pincam.notes.size() == 1);
+  check_refusal("461.5 460.25 363 248.5 0.1 0.2\n", "rows of numbers that are no calibration");
+}
+
+TEST_CASE("What calibration programs write beside their camera file is refused with the file's name") {
+  using program_cameras_test::check_refusal;
+  check_refusal("# oST version 5.0 parameters\n\n\n[image]\n\nwidth\n640\n",
+                "expected the ost.yaml beside it");
+  check_refusal(
+      "Calibration results\n====\ncam0 (/cam0/image_raw):\n    distortion: [-0.1 0.02] +- [0 0]\n"
+      "    projection: [461 460 363 248] +- [1 1 1 1]\n",
+      "expected the camchain.yaml beside it");
+  check_refusal("% Camera\nfc = [ 657.3 ; 657.7 ];\ncc = [ 302 ; 242 ];\nkc = [ -0.2 ; 0.1 ; 0 ; 0 ; 0 ];\n",
+                "is a script of MATLAB's calibration toolbox");
+}

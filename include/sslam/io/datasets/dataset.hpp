@@ -42,6 +42,7 @@ enum class Layout {
   kTransforms,
   kColourDepth,
   kColmap,
+  kTimedImages,
   kBag,
   kImages,
   kVideo,

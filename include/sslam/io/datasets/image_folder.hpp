@@ -13,18 +13,27 @@
 #include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/image_kinds.hpp"
 #include "sslam/io/datasets/name_stamps.hpp"
+#include "sslam/io/datasets/times_beside.hpp"
 #include "sslam/io/files/files.hpp"
 
 namespace sslam::io {
 
-// Stamps come from the names when each is one, else from the position and the frame rate.
+// Stamps come from the names when each is one, else from a list of times beside them, else from the position
+// and the frame rate.
 [[nodiscard]] inline Dataset frames_from_images(const std::filesystem::path& root,
                                                 const std::vector<std::filesystem::path>& images,
                                                 double frame_rate) {
   Dataset dataset;
   dataset.layout = Layout::kImages;
   dataset.root = root;
-  const NameStamps named = stamps_of_names(images);
+  NameStamps named = stamps_of_names(images);
+  if (const auto times = images.size() > 1 && named.seconds.empty()
+                             ? find_times_beside(images.front().parent_path())
+                             : std::filesystem::path();
+      !times.empty()) {
+    named.seconds = read_times_beside(times, images, dataset.warnings);
+    if (!named.seconds.empty()) named.note.clear();
+  }
   const bool counted = named.seconds.empty();
   if (!named.note.empty() && images.size() > 1)  // one image alone needs no clock
     dataset.warnings.push_back(root.string() + ": " + named.note +
@@ -39,6 +48,11 @@ namespace sslam::io {
   return dataset;
 }
 
+// A folder with images/ and their times beside it, as of TUM's monocular recordings.
+[[nodiscard]] inline bool is_timed_folder(const std::filesystem::path& root) {
+  return !list_files(root / "images", is_image_name).empty() && !find_times_beside(root / "images").empty();
+}
+
 [[nodiscard]] inline bool is_image_folder(const std::filesystem::path& root) {
   return !list_files(root, is_image_name).empty();
 }
@@ -51,6 +65,21 @@ namespace sslam::io {
     throw Error(root.string() + ": holds images of several kinds side by side; say which are meant, as in '" +
                 (root / "NAMES").string() + "' with NAMES one of " + kinds);
   return frames_from_images(root, images, frame_rate);
+}
+
+// images/ with its times, and the ground truth beside it, whose poses may not be those of all frames.
+[[nodiscard]] inline Dataset read_timed_folder(const std::filesystem::path& root,
+                                               double frame_rate = kDefaultFrameRate) {
+  Dataset dataset = read_image_folder(root / "images", frame_rate);
+  dataset.layout = Layout::kTimedImages;
+  dataset.root = root;
+  std::error_code ignored;
+  for (const char* name : {"groundtruthSync.txt", "groundtruth.txt"})
+    if (std::filesystem::is_regular_file(root / name, ignored)) {
+      attach_truth_file(dataset, root / name);
+      break;
+    }
+  return dataset;
 }
 
 // A number as FFmpeg and OpenCV name it in a sequence of images: img_%06d.png.

@@ -41,7 +41,7 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 13> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 14> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
@@ -72,6 +72,10 @@ inline constexpr std::array<FolderLayout, 13> kFolderLayouts{{
     {Layout::kColmap, "COLMAP", "images/ with sparse/0/images.txt or .bin", is_colmap_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_colmap_folder(root, options.frame_rate);
+     }},
+    {Layout::kTimedImages, "TUM mono", "images/ with times.txt", is_timed_folder,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_timed_folder(root, options.frame_rate);
      }},
     {Layout::kBag, "ROS bag", "*.mcap or *.db3", is_bag_folder,
      [](const FolderLayout::Path& root, const OpenOptions&) { return unread_bag(root); }},

@@ -98,8 +98,24 @@ inline void complete_wide(CameraFile& read) {
   }
 }
 
+// Of texts that calibration programs write beside the file that is to be taken: which that is; empty: another
+// text.
+[[nodiscard]] inline std::string other_output(std::string_view text) {
+  const auto has = [text](std::string_view part) { return text.find(part) != std::string_view::npos; };
+  if (has("# oST version"))
+    return "is the text form (ost.txt) of ROS's calibrator; expected the ost.yaml beside it";
+  if (has("projection: [") && has("distortion: [") && has("+-"))
+    return "is the report of Kalibr; expected the camchain.yaml beside it";
+  if (has("fc = [") && has("cc = [") && has("kc = ["))
+    return "is a script of MATLAB's calibration toolbox; expected one row of text with fx fy cx cy (its fc "
+           "and "
+           "cc) and k1 k2 p1 p2 k3 (its kc)";
+  return {};
+}
+
 [[nodiscard]] inline CameraFile read_any_camera(const std::string& text, const std::string& source) {
   const auto first = text.find_first_not_of(" \t\r\n");
+  if (const std::string other = other_output(text); !other.empty()) throw Error(source + ": " + other);
   try {
     if (first != std::string::npos && text[first] == '<') {
       if (const std::string_view element = metashape_element(text); !element.empty())

@@ -164,6 +164,11 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   return file;
 }
 
+// Whether a principal point may be at this place of so many pixels.
+[[nodiscard]] constexpr bool is_middle(double place, double pixels) noexcept {
+  return place > 0.3 * pixels && place < 0.7 * pixels;
+}
+
 // Nothing where the text is of none of these kinds.
 [[nodiscard]] inline std::optional<CameraFile> read_camera_rows(const std::string& text,
                                                                 const std::string& path) {
@@ -199,6 +204,14 @@ inline int row_pixels(const CameraKeys& keys, double value) {
   const bool matrix_in_one = rows.size() == 1 && all.size() == 9 && all[1] == 0 && all[3] == 0;
   if (rows.size() == 3 || rows.size() == 4 || matrix_in_one) {
     set_matrix(keys, "the camera matrix", all, file);
+    return file;
+  }
+  if (rows.size() == 1 && all.size() == 6 && is_middle(all[4], all[0]) &&
+      is_middle(all[5], all[1])) {  // ARKitScenes' .pincam
+    file.camera.width = row_pixels(keys, all[0]);
+    file.camera.height = row_pixels(keys, all[1]);
+    set_pinhole(keys, all[2], all[3], all[4], all[5], file);
+    file.notes.push_back(path + ": its six numbers are read as width height fx fy cx cy");
     return file;
   }
   if (rows.size() > 1 || (all.size() != 4 && all.size() != 8 && all.size() != 9))

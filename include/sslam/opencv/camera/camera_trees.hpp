@@ -38,6 +38,11 @@ namespace detail {
     if (keys.has("cam0_calib")) refuse_vins_settings(keys);
     if (keys.has("value0")) return read_basalt(keys);
     if (is_depthai(root)) return read_depthai(keys);
+    if (const TextNode* const node = root.find("fisheye_params");
+        node != nullptr && node->has("camera_matrix"))
+      return read_gyroflow(keys);
+    if (keys.has("lensmodel") && keys.has("imagersize")) return read_mrcal(keys);
+    if (is_svo(root)) return read_svo(keys);
     if (is_opensfm(root)) return read_opensfm(keys);
     if (lists_cameras(root)) return read_listed_cameras(keys);
     if (const TextNode* const list = root.find("cameras");
@@ -59,6 +64,7 @@ namespace detail {
                                    "K",
                                    "k",
                                    "mtx",
+                                   "M1",
                                    "P_rect_02",
                                    "P2",
                                    "P0"};
@@ -76,6 +82,13 @@ namespace detail {
     for (const char* part : {"cam0", "color", "rgb", "camera", "Camera", "intrinsics", "intrinsic", "cam"})
       if (const TextNode* const node = root.find(part); node != nullptr && node->kind == TextNode::Kind::kMap)
         return read_camera_tree(*node, file, std::string(part) + ".");
+  if (where.empty())
+    for (const char* part : {"Dataset", "dataset", "sensor"})  // MonoGS and its like
+      if (const TextNode* const node = root.find(part); node != nullptr)
+        for (const char* inner : {"Calibration", "calibration", "intrinsics"})
+          if (const TextNode* const found = node->find(inner);
+              found != nullptr && found->kind == TextNode::Kind::kMap)
+            return read_camera_tree(*found, file, std::string(part) + "." + inner + ".");
   if (where.empty())
     if (const TextNode* const section = only_camera_section(keys); section != nullptr)
       return read_camera_tree(*section, file, "below a section: ");

@@ -40,14 +40,53 @@ inline CameraFile read_matrix_camera(const CameraKeys& keys, const CameraKeys::N
   file.camera.height = keys.optional_pixels({"image_height", "image_Height", "height", "h"});
   std::string model = keys.text({"distortion_model", "model"});
   if (keys.optional({"fisheye_model", "Fisheye"}, 0, "0 or 1") != 0) model = "fisheye";
-  std::vector<double> values = lens_list(keys);
+  std::vector<double> values =
+      keys.has("M1") ? keys.numbers({"D1"}, "distortion coefficients") : lens_list(keys);
   const CameraKeys::Names named = lens_model(model) == LensModel::kFisheye
                                       ? CameraKeys::Names{"k1", "k2", "k3", "k4"}
                                       : CameraKeys::Names{"k1", "k2", "p1", "p2", "k3"};
   if (values.empty() && keys.has_any(named))
     for (const std::string_view key : named) values.push_back(keys.optional({key}, 0, kCoefficient));
   if (model.empty() && values.size() > 5) model = "rational";
+  if (keys.has("M1") && keys.has("M2"))
+    file.notes.push_back(keys.file() + ": has two cameras; the first, M1 and D1, is taken");
   set_lens(keys, model.empty() ? "plumb_bob" : model, values, file);
+  return file;
+}
+
+// The fisheye profiles of Gyroflow, for action cameras.
+inline CameraFile read_gyroflow(const CameraKeys& top) {
+  CameraFile file;
+  const TextNode* const size = top.map().find("calib_dimension");
+  if (size != nullptr && size->kind == TextNode::Kind::kMap) {
+    const CameraKeys keys(*size, top.file(), "calib_dimension.");
+    file.camera.width = keys.optional_pixels({"w"});
+    file.camera.height = keys.optional_pixels({"h"});
+  }
+  const CameraKeys keys(*top.map().find("fisheye_params"), top.file(), "fisheye_params.");
+  set_matrix(keys, "camera_matrix", keys.numbers({"camera_matrix"}, "a camera matrix"), file);
+  const std::string model = top.text({"distortion_model"});
+  if (!model.empty() && plain_word(model) != "opencvfisheye" && plain_word(model) != "fisheye")
+    refuse_lens(top, model);
+  set_lens(keys, "fisheye", lens_list(keys), file);
+  file.frame_rate = top.optional_positive({"fps"}, "frames a second");
+  return file;
+}
+
+// mrcal's .cameramodel: the numbers of the lens follow fx fy cx cy, in OpenCV's order.
+inline CameraFile read_mrcal(const CameraKeys& keys) {
+  CameraFile file;
+  const std::string model = keys.text({"lensmodel"});
+  const std::vector<double> values = keys.numbers({"intrinsics"}, "fx fy cx cy and the lens");
+  const std::vector<double> size = keys.numbers({"imagersize"}, "the width and the height in pixels");
+  if (model != "LENSMODEL_PINHOLE" && !model.starts_with("LENSMODEL_OPENCV")) refuse_lens(keys, model);
+  if (values.size() < 4 || !(values[0] > 0) || !(values[1] > 0) || size.size() != 2)
+    keys.fail("intrinsics and imagersize: expected fx fy cx cy and the lens, and the width and the height");
+  const TextNode& node = *keys.map().find("imagersize");
+  file.camera.width = keys.whole_pixels(node, "imagersize", size[0]);
+  file.camera.height = keys.whole_pixels(node, "imagersize", size[1]);
+  file.camera.pinhole = {values[0], values[1], values[2], values[3]};
+  set_lens(keys, "rational", {values.begin() + 4, values.end()}, file);
   return file;
 }
 

@@ -105,6 +105,33 @@ inline CameraFile read_okvis(const CameraKeys& top) {
   return file;
 }
 
+// The camera rigs of SVO and of ETH's vio tools: cameras[0].camera.
+[[nodiscard]] inline bool is_svo(const TextNode& root) {
+  const TextNode* const list = root.find("cameras");
+  return list != nullptr && list->kind == TextNode::Kind::kList && !list->items.empty() &&
+         list->items.front().has("camera");
+}
+
+inline CameraFile read_svo(const CameraKeys& top) {
+  const TextNode& list = *top.map().find("cameras");
+  const CameraKeys keys = map_under(CameraKeys(list.items.front(), top.file(), "cameras[0]."), "camera");
+  CameraFile file;
+  file.camera.width = keys.optional_pixels({"image_width"});
+  file.camera.height = keys.optional_pixels({"image_height"});
+  const std::string type = keys.text({"type"});
+  const std::vector<double> plane = keys.numbers({"intrinsics"}, "fx fy cx cy");
+  if (plain_word(type) != "pinhole") refuse_lens(keys, type);
+  if (plane.size() != 4 || !(plane[0] > 0) || !(plane[1] > 0))
+    keys.fail(keys.where() + "intrinsics: expected the four numbers fx fy cx cy, fx and fy greater than 0");
+  file.camera.pinhole = {plane[0], plane[1], plane[2], plane[3]};
+  if (keys.has("distortion")) {
+    const CameraKeys lens = map_under(keys, "distortion");
+    set_lens(lens, lens.text({"type"}), lens.numbers({"parameters"}, "distortion coefficients"), file);
+  }
+  note_first_of(top, list.items.size(), file);
+  return file;
+}
+
 inline CameraFile read_basalt(const CameraKeys& top) {
   const CameraKeys all = map_under(top, "value0");
   const TextNode* const cameras = all.map().find("intrinsics");
