@@ -26,14 +26,17 @@ enum class RowLayout {
   kWFirst,         // stamp tx ty tz qw qx qy qz, and more: the tables of EuRoC
   kMatrix,         // the upper three rows of a 4x4 matrix, or all four, without a stamp: KITTI
   kStampedMatrix,  // the same behind a stamp
+  kUnstamped,      // tx ty tz qx qy qz qw: TartanAir, the vertices of g2o
 };
 
 [[nodiscard]] constexpr bool has_stamp(RowLayout layout) noexcept {
-  return layout != RowLayout::kMatrix;
+  return layout != RowLayout::kMatrix && layout != RowLayout::kUnstamped;
 }
 
 inline constexpr std::string_view kPoseRows =
-    "'stamp tx ty tz qx qy qz qw' (TUM), a table of EuRoC (8 or 17 columns), or a 3x4 or 4x4 matrix a row";
+    "'stamp tx ty tz qx qy qz qw' (TUM), a table of EuRoC (8 or 17 columns), 'tx ty tz qx qy qz qw', or a "
+    "3x4 "
+    "or 4x4 matrix a row";
 
 // What programs write where they have no number.
 [[nodiscard]] inline bool says_nothing(std::string_view cell) {
@@ -128,7 +131,7 @@ struct PoseRow {
   }
   const bool matrix = layout == RowLayout::kMatrix || layout == RowLayout::kStampedMatrix;
   std::vector<double> v;
-  for (std::size_t i = from; i < (matrix ? width : 8); ++i) {
+  for (std::size_t i = from; i < (matrix ? width : from + 7); ++i) {
     const std::optional<double> number = parse_cell(row.cells[i]);
     if (!number) {
       why = "'" + std::string(row.cells[i]) + "' is not a number";

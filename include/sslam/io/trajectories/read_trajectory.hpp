@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trajectories as programs write them, told by their rows: TUM, EuRoC, KITTI with its times, 4x4 matrices,
-// also with the heads of Open3D.
+// also with the heads of Open3D, the vertices of g2o.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,6 +23,7 @@
 #include "sslam/io/files/stamp_unit.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/trajectories/pose_columns.hpp"
+#include "sslam/io/trajectories/pose_groups.hpp"
 #include "sslam/io/trajectories/pose_row.hpp"
 #include "sslam/io/trajectories/pose_times.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
@@ -42,42 +42,17 @@ namespace trajectory_detail {
   return std::nullopt;
 }
 
-// A matrix over four rows becomes one row.
-inline void join_matrices(std::vector<TextRow>& rows) {
-  const auto four = [](const TextRow& row) { return row.cells.size() == 4; };
-  if (rows.size() % 4 != 0 || !std::all_of(rows.begin(), rows.end(), four)) return;
-  for (std::size_t i = 0; i < rows.size() / 4; ++i) {
-    TextRow joined = rows[4 * i];
-    for (std::size_t j = 1; j < 4; ++j)
-      joined.cells.insert(joined.cells.end(), rows[4 * i + j].cells.begin(), rows[4 * i + j].cells.end());
-    rows[i] = std::move(joined);
-  }
-  rows.resize(rows.size() / 4);
-}
-
-// Open3D's trajectory.log has three whole numbers above each matrix over four rows. Takes them out, and
-// answers with the first of each, the number of the frame; empty: this is another file.
-[[nodiscard]] inline std::vector<double> take_log_heads(std::vector<TextRow>& rows) {
-  constexpr std::size_t kGroup = 5;
-  std::vector<double> numbers;
-  if (rows.size() % kGroup != 0) return {};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool head = i % kGroup == 0;
-    const std::vector<std::string_view>& cells = rows[i].cells;
-    if (cells.size() != (head ? 3U : 4U)) return {};
-    if (!head) continue;
-    for (const std::string_view cell : cells)
-      if (!parse_number<std::int64_t>(cell)) return {};
-    numbers.push_back(static_cast<double>(*parse_number<std::int64_t>(cells.front())));
-  }
-  std::size_t at = 0;
-  std::erase_if(rows, [&at](const TextRow&) { return at++ % kGroup == 0; });
-  return numbers;
+// Whether the last four of seven numbers are a quaternion, or mean that there is no pose.
+[[nodiscard]] inline bool ends_as_quaternion(const TextRow& row) {
+  std::array<double, 4> q{};
+  for (std::size_t i = 0; i < 4; ++i) q[i] = parse_cell(row.cells[3 + i]).value_or(2);
+  std::string ignored;
+  return means_no_pose(q) || pose_of({}, q, ignored);
 }
 
 // The number of cells that most rows have, among those of a layout if there are any.
 [[nodiscard]] inline std::size_t usual_width(const std::vector<TextRow>& rows) {
-  constexpr std::array<std::size_t, 5> kKnown{8, 12, 13, 16, 17};
+  constexpr std::array<std::size_t, 6> kKnown{8, 12, 13, 16, 17, 7};
   std::size_t width = rows.front().cells.size(), most = 0;
   for (const std::size_t known : kKnown) {
     const auto count = static_cast<std::size_t>(std::count_if(
@@ -109,6 +84,10 @@ inline void join_matrices(std::vector<TextRow>& rows) {
                                          Warnings& warnings) {
   if (width == 12 || width == 16) return RowLayout::kMatrix;
   if (width == 13 || std::any_of(rows.begin(), rows.end(), ends_as_matrix)) return RowLayout::kStampedMatrix;
+  if (width == 7 && std::all_of(rows.begin(), rows.end(), [](const TextRow& row) {
+        return row.cells.size() != 7 || ends_as_quaternion(row);
+      }))
+    return RowLayout::kUnstamped;
   const std::optional<bool> named = names_w_first(head);
   if (width != 8 && width != 17)
     throw Error(path.string() + ": line " + std::to_string(rows.front().line) + ": has " +
@@ -172,7 +151,10 @@ inline void join_matrices(std::vector<TextRow>& rows) {
     throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
   const std::string_view head(text.data(), static_cast<std::size_t>(rows.front().text.data() - text.data()));
   const std::size_t named = order_columns(rows, head);
-  const std::vector<double> numbers = trajectory_detail::take_log_heads(rows);
+  std::vector<double> numbers = trajectory_detail::take_log_heads(rows);
+  if (numbers.empty()) numbers = trajectory_detail::take_vertices(rows);
+  if (rows.empty())
+    throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
   trajectory_detail::join_matrices(rows);
   const std::size_t width = named > 0 ? named : trajectory_detail::usual_width(rows);
   const RowLayout layout =
