@@ -20,10 +20,16 @@
 namespace sslam::cli {
 namespace {
 
+CameraChoice choice_of(const CameraFile& file, const std::string& source) {
+  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, source, file.notes, {}, false};
+  choice.wide = file.wide;
+  choice.view_across = file.view_across;
+  return choice;
+}
+
 CameraChoice camera_from_text(const io::Dataset& dataset) {
   const std::string& source = dataset.camera_source;
-  const CameraFile file = parse_camera_text(dataset.camera_text, source);
-  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, source, file.notes, {}, false};
+  CameraChoice choice = choice_of(parse_wide_camera_text(dataset.camera_text, source), source);
   choice.notes.insert(choice.notes.begin(), "the camera is that of " + source);
   return choice;
 }
@@ -62,13 +68,6 @@ void complete_depth(CameraChoice& choice, const io::Dataset& dataset) {
   if (choice.depth_factor == 0) choice.depth_factor = dataset.depth_factor;
   if (choice.depth_factor > 0) return;
   if (const auto known = io::known_camera_for(dataset)) choice.depth_factor = known->depth_factor;
-}
-
-CameraChoice choice_of(const CameraFile& file, const std::string& source) {
-  CameraChoice choice{file.camera, file.depth_factor, file.frame_rate, source, file.notes, {}, false};
-  choice.wide = file.wide;
-  choice.view_across = file.view_across;
-  return choice;
 }
 
 }  // namespace

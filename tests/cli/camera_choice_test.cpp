@@ -192,4 +192,14 @@ TEST_CASE("Of several cameras the one whose size fits is taken with a note, else
                  "has no camera 'CAM_D'; it has CAM_A, CAM_B, CAM_C"));
 }
 
+TEST_CASE("A dataset's wide lens is seen through a view, as one from a file is") {
+  Room room;
+  room.dataset.camera_text = "1 OPENCV_FISHEYE 640 480 180 180 320 240 0.01 0.001 0 0\n";
+  room.dataset.camera_source = "cameras.bin";
+  const cli::CameraChoice choice = room.choose(640, 480);
+  CHECK(choice.wide.has_value());
+  CHECK(choice.view_fov > 100);
+  CHECK(contains(choice.notes.front(), "the camera is that of cameras.bin"));
+}
+
 }  // namespace camera_choice_test

@@ -28,14 +28,17 @@ namespace sslam::io {
   std::error_code ignored;
   const std::filesystem::path full = std::filesystem::absolute(images / ".", ignored).lexically_normal();
   const std::filesystem::path folder = full.parent_path(), above = folder.parent_path();
-  std::size_t folders = 0;
-  for (const std::filesystem::path& each : list_folders(above))
-    folders += list_files(each, is_image_name).empty() ? 0 : 1;
-  for (const std::filesystem::path& place : {folder, above})
+  const auto list_in = [&](const std::filesystem::path& place) {
     for (const char* name : {"times.txt", "timestamps.txt", "timestamps.csv", "times.csv"})
-      if ((place == folder || folders == 1) && std::filesystem::is_regular_file(place / name, ignored))
-        return place / name;
-  return {};
+      if (std::filesystem::is_regular_file(place / name, ignored)) return place / name;
+    return std::filesystem::path();
+  };
+  if (auto list = list_in(folder); !list.empty()) return list;
+  auto list = list_in(above);
+  if (list.empty()) return {};
+  for (const std::filesystem::path& each : list_folders(above))
+    if (each != folder && !list_files(each, is_image_name).empty()) return {};
+  return list;
 }
 
 namespace times_beside_detail {

@@ -146,12 +146,17 @@ inline void complete_wide(CameraFile& read) {
   return read;
 }
 
+// As read_wide_camera_file, of text that is no file.
+[[nodiscard]] inline CameraFile parse_wide_camera_text(const std::string& text, const std::string& source) {
+  CameraFile read = detail::read_any_camera(text, source);
+  detail::complete_wide(read);
+  return read;
+}
+
 // Also of a lens that is too wide for a pinhole, `wide` of the answer, of a file that says no more than
 // `view_across`, and of several cameras: `others` of the answer. Throws Error as read_camera_file.
 [[nodiscard]] inline CameraFile read_wide_camera_file(const std::filesystem::path& path) {
-  CameraFile read = detail::read_any_camera(detail::read_camera_text(path), path.string());
-  detail::complete_wide(read);
-  return read;
+  return parse_wide_camera_text(detail::read_camera_text(path), path.string());
 }
 
 // Throws Error, in one line, when the file cannot be read, is of no known kind, has a lens that is not near a
