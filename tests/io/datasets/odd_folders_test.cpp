@@ -2,6 +2,7 @@
 // Folders near a layout: lists with other columns, fewer poses than images, depth that is no image.
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "io/errors.hpp"
 #include "sslam/io/datasets/open_dataset.hpp"
@@ -181,6 +182,20 @@ TEST_CASE("Depth images have the names of colour images whatever their format") 
   scratch.write("depth/door.jpg");  // a picture of it
   scratch.write("depth/door.png");
   CHECK(contains(io::open_dataset(scratch.path()).frames[0].depth, "depth/door.png"));
+}
+
+TEST_CASE("Recordings in formats of their own are refused with the way to images") {
+  const ScratchFolder scratch;
+  for (const auto& [name, text] : {std::pair{"scene.sens", "extract it with ScanNet's SensReader"},
+                                   {"walk.SVO2", "is a recording of the ZED SDK"},
+                                   {"scan.r3d", "is a recording of Record3D"},
+                                   {"room.tar.gz", "is an archive; unpack it"},
+                                   {"list.txt", "a list of images is read as rgb.txt in a folder"}}) {
+    INFO(name);
+    const std::string file = scratch.write(name, "x").string();
+    CHECK(contains(error_of([&] { (void)io::open_dataset(file); }), file + ": "));
+    CHECK(contains(error_of([&] { (void)io::open_dataset(file); }), text));
+  }
 }
 
 }  // namespace odd_folders_test

@@ -20,6 +20,7 @@
 #include "sslam/io/datasets/kitti_raw.hpp"
 #include "sslam/io/datasets/nearest_layout.hpp"
 #include "sslam/io/datasets/numbered_poses.hpp"
+#include "sslam/io/datasets/other_recordings.hpp"
 #include "sslam/io/datasets/seven_scenes.hpp"
 #include "sslam/io/datasets/transforms_folder.hpp"
 #include "sslam/io/datasets/tum.hpp"
@@ -137,6 +138,8 @@ inline constexpr std::array<FolderLayout, 14> kFolderLayouts{{
     if (is_bag_name(path)) return unread_bag(path);
     if (is_image_name(path))
       throw Error(path.string() + ": is one image; a run needs many: name their folder, or a glob in quotes");
+    if (const std::string other = other_recording(path); !other.empty())
+      throw Error(path.string() + ": " + other);
     throw Error(
         path.string() +
         ": is neither a folder nor a video (mp4, avi, mkv, mov, webm, ...) nor a bag (bag, mcap, db3)");
