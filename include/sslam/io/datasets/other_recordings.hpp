@@ -26,8 +26,12 @@ namespace sslam::io {
        {".oni", "is a recording of OpenNI; export it as images"},
        {".klg", "is a recording of Kintinuous; export it as images"},
        {".aedat4", "is a recording of an event camera; export its frames as a video or images"},
-       {".txt", "is a text; a list of images is read as rgb.txt in a folder, which is what to name"},
-       {".csv", "is a table; a list of images is read as rgb.txt in a folder, which is what to name"},
+       {".txt",
+        "is a text, neither a folder nor a video; a list of images is read as rgb.txt in a folder, which is "
+        "what to name"},
+       {".csv",
+        "is a table, neither a folder nor a video; a list of images is read as rgb.txt in a folder, which is "
+        "what to name"},
        {".zip", "is an archive; unpack it, and name the folder"}}};
   const std::string own = lower_case(file.extension().string());
   for (const Kind& kind : kKinds)
