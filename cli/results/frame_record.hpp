@@ -22,7 +22,8 @@ namespace sslam::cli {
 struct DenseResult;
 
 struct FrameRecord : FrameReport {
-  std::string image;  // file name, for people
+  std::string image;     // file name, for people
+  bool bridged = false;  // its pose in the trajectory lies between two others', turned as its features say
 };
 
 struct RunOutcome {

@@ -20,7 +20,7 @@ std::vector<std::string> frame_columns() {
       "index",     "stamp",       "image",         "state",         "reason",       "points",
       "lines",     "normals",     "normals_asked", "point_inliers", "line_inliers", "axes_seen",
       "structure", "image_fixed", "keyframe",      "loop_closed",   "world",        "maps_joined",
-      "points_ms", "lines_ms",    "normals_ms",    "extraction_ms"};
+      "bridged",   "points_ms",   "lines_ms",      "normals_ms",    "extraction_ms"};
   for (int s = 0; s < kStageCount; ++s) columns.push_back(std::string(name(static_cast<Stage>(s))) + "_ms");
   columns.insert(columns.end(), {"tracking_ms", "frame_ms"});
   return columns;
@@ -32,7 +32,7 @@ std::vector<std::string> frame_cells(const FrameRecord& frame) {
   auto cells =
       texts_of(r.index, r.stamp, frame.image, name(r.state), name(r.reason), frame.points, frame.lines,
                frame.normals, name(frame.normal_need), r.point_inliers, r.line_inliers, r.axes_seen,
-               r.structure, r.image_fixed, r.keyframe, r.loop_closed, r.world, r.maps_joined,
+               r.structure, r.image_fixed, r.keyframe, r.loop_closed, r.world, r.maps_joined, r.bridged,
                ms(frame.points_ms), ms(frame.lines_ms), ms(frame.normals_ms), ms(frame.extraction_ms));
   for (const double stage : frame.stage_ms) cells.push_back(io::csv_cell(ms(stage)));
   cells.push_back(io::csv_cell(ms(frame.tracking_ms)));

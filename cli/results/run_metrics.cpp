@@ -84,6 +84,11 @@ double share_tracked(const RunContext& context, const RunOutcome& outcome) {
   return total == 0 ? 0 : static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total);
 }
 
+auto count_bridged(const RunOutcome& outcome) {
+  return std::count_if(outcome.frames.begin(), outcome.frames.end(),
+                       [](const FrameRecord& frame) { return frame.bridged; });
+}
+
 std::size_t count_asked(const RunOutcome& outcome, NormalNeed need) {
   return static_cast<std::size_t>(
       std::count_if(outcome.frames.begin(), outcome.frames.end(),
@@ -146,6 +151,7 @@ nlohmann::ordered_json metrics_json(const RunContext& context, const RunOutcome&
   Json metrics = {{"frames", context.dataset.frames.size()},
                   {"tracked", outcome.trajectory.size()},
                   {"tracked_live", tracked_live},
+                  {"bridged", count_bridged(outcome)},
                   {"share_tracked", share_tracked(context, outcome)},
                   {"frames_dropped", outcome.frames_dropped},
                   {"stream_losses", outcome.stream_losses},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/run/track_sequence.hpp"
 
+#include <algorithm>
 #include <ctime>
+#include <vector>
 
 #include "cli/results/map_figures.hpp"
 #include "cli/shell/interrupt.hpp"
@@ -64,6 +66,9 @@ void track_sequence(System& system, FrameStream& stream, RunRecorder& recorder, 
   outcome.keyframes_not_made = system.keyframes_not_made();
   outcome.keyframes = keyframe_poses(system.map(), known_keyframes);
   outcome.trajectory = system.trajectory();
+  const std::vector<double> bridged = system.bridged();
+  for (FrameRecord& frame : outcome.frames)
+    frame.bridged = std::binary_search(bridged.begin(), bridged.end(), frame.stamp);
 }
 
 }  // namespace sslam::cli

@@ -69,6 +69,8 @@ class BasicSystem {
   [[nodiscard]] const Map<double>& map() const { return engine_->map(); }
   // One pose for each frame that has one in the map, ordered by stamp, by the map as it is now.
   [[nodiscard]] io::Trajectory trajectory() const;
+  // Stamps of those that the final pass has bridged: turn measured, place between its neighbours'.
+  [[nodiscard]] std::vector<double> bridged() const { return engine_->trajectory().bridged(); }
   [[nodiscard]] LatestPose latest() const;
 
   // The map as a file; throws Error. A map that is loaded is gone on in: frames are lost until one is

@@ -18,6 +18,7 @@
 #include "sslam/map/seen_patches.hpp"
 #include "sslam/track/contract/concepts.hpp"
 #include "sslam/track/localise/relocalisation.hpp"
+#include "sslam/track/worlds/gap_bridge.hpp"
 #include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/shutter_straightening.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
@@ -49,6 +50,7 @@ class FinalPass {
   MapAdjustment<S> adjustment;
   ShutterStraightening<S> shutter;
   FeatureAlignment<S> alignment;
+  GapBridge<S> bridge;
 
   FinalPass() {
     adjustment.solver.options.max_iterations = 20;
@@ -61,6 +63,7 @@ class FinalPass {
     visit_stage("adjustment.", self.adjustment, visit);
     visit_stage("alignment.", self.alignment, visit);
     visit_stage("", self.shutter, visit);
+    visit_stage("bridge.", self.bridge, visit);
   }
 
   // A frame has been tracked, or lost; its features are copied, with the patches of those that see landmarks.
@@ -106,6 +109,7 @@ class FinalPass {
       for (std::size_t i = frames_.size(); i-- > 0;)
         if (log.find(frames_[i].index) == nullptr) track(i, -1, map, fallback, refinement, log);
       find_lost(map, fallback, refinement, relocalisation, log);
+      bridge.run(frames_, map, log);
     }
     frames_.clear();
     previous_.reset();

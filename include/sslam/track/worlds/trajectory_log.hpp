@@ -16,6 +16,7 @@ struct TrajectoryEntry {
   std::int64_t index = -1;  // position in the dataset
   double stamp = 0;         // seconds
   KeyframeId reference = kNone;
+  bool bridged = false;  // between two poses, by its turn alone: not held by the map
   SE3<S> frame_from_reference;
 };
 
@@ -24,7 +25,7 @@ class TrajectoryLog {
  public:
   void add(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference,
            const SE3<S>& cam_from_world) {
-    entries_.push_back({index, stamp, reference, cam_from_world * map.pose(reference).inverse()});
+    entries_.push_back({index, stamp, reference, false, cam_from_world * map.pose(reference).inverse()});
   }
 
   // As another log has it, of the same map.
@@ -41,8 +42,9 @@ class TrajectoryLog {
 
   // Of a sorted log: the frame's pose is this one.
   void set(const Map<S>& map, std::int64_t index, double stamp, KeyframeId reference,
-           const SE3<S>& cam_from_world) {
-    const TrajectoryEntry<S> entry{index, stamp, reference, cam_from_world * map.pose(reference).inverse()};
+           const SE3<S>& cam_from_world, bool bridged = false) {
+    const TrajectoryEntry<S> entry{index, stamp, reference, bridged,
+                                   cam_from_world * map.pose(reference).inverse()};
     const auto at = entries_.begin() + (position(index) - entries_.cbegin());
     if (at != entries_.end() && at->index == index)
       *at = entry;
@@ -82,6 +84,15 @@ class TrajectoryLog {
     return entry.frame_from_reference * map.pose(entry.reference);
   }
 
+  // Stamps of the bridged ones, in order.
+  [[nodiscard]] std::vector<double> bridged() const {
+    std::vector<double> stamps;
+    for (const TrajectoryEntry<S>& entry : entries_)
+      if (entry.bridged) stamps.push_back(entry.stamp);
+    std::sort(stamps.begin(), stamps.end());
+    return stamps;
+  }
+
   [[nodiscard]] const std::vector<TrajectoryEntry<S>>& entries() const noexcept { return entries_; }
   void clear() noexcept { entries_.clear(); }
 
@@ -90,7 +101,7 @@ class TrajectoryLog {
     return a.index < b.index;
   }
   [[nodiscard]] auto position(std::int64_t index) const noexcept {
-    return std::lower_bound(entries_.begin(), entries_.end(), TrajectoryEntry<S>{index, 0, kNone, {}},
+    return std::lower_bound(entries_.begin(), entries_.end(), TrajectoryEntry<S>{index, 0, kNone, false, {}},
                             earlier);
   }
 
