@@ -47,7 +47,7 @@ namespace trajectory_detail {
   std::array<double, 4> q{};
   for (std::size_t i = 0; i < 4; ++i) q[i] = parse_cell(row.cells[3 + i]).value_or(2);
   std::string ignored;
-  return means_no_pose(q) || pose_of({}, q, ignored);
+  return means_no_pose(q) || pose_of(Vec3<double>::Zero(), q, ignored);
 }
 
 // The number of cells that most rows have, among those of a layout if there are any.
