@@ -21,14 +21,14 @@ std::string image_row(int id, double x, int camera, const std::string& name) {
 }
 
 template <class Value>
-std::string bytes_of(Value value) {
+std::string as_bytes(Value value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
 std::string image_bytes(int id, double x, int camera, const std::string& name) {
-  std::string bytes = bytes_of<std::int32_t>(id);
-  for (const double number : {1.0, 0.0, 0.0, 0.0, -x, 0.0, 0.0}) bytes += bytes_of(number);
-  return bytes + bytes_of<std::int32_t>(camera) + name + std::string(1, '\0') + bytes_of<std::uint64_t>(0);
+  std::string bytes = as_bytes<std::int32_t>(id);
+  for (const double number : {1.0, 0.0, 0.0, 0.0, -x, 0.0, 0.0}) bytes += as_bytes(number);
+  return bytes + as_bytes<std::int32_t>(camera) + name + std::string(1, '\0') + as_bytes<std::uint64_t>(0);
 }
 
 void make_images(const ScratchFolder& scratch, int count, const std::string& folder = "images/") {
@@ -69,12 +69,12 @@ TEST_CASE("COLMAP folder: binary models say the same") {
   using namespace colmap_folder_test;
   const ScratchFolder scratch;
   make_images(scratch, 3);
-  std::string images = bytes_of<std::uint64_t>(3);
+  std::string images = as_bytes<std::uint64_t>(3);
   for (int i : {3, 1, 2}) images += image_bytes(i, i, 4, "frame" + std::to_string(i) + ".jpg");
   scratch.write("sparse/0/images.bin", images);
-  std::string cameras = bytes_of<std::uint64_t>(1) + bytes_of<std::int32_t>(4) + bytes_of<std::int32_t>(2) +
-                        bytes_of<std::uint64_t>(640) + bytes_of<std::uint64_t>(480);
-  for (const double number : {500.0, 320.0, 240.0, -0.125}) cameras += bytes_of(number);
+  std::string cameras = as_bytes<std::uint64_t>(1) + as_bytes<std::int32_t>(4) + as_bytes<std::int32_t>(2) +
+                        as_bytes<std::uint64_t>(640) + as_bytes<std::uint64_t>(480);
+  for (const double number : {500.0, 320.0, 240.0, -0.125}) cameras += as_bytes(number);
   SECTION("whole") {
     scratch.write("sparse/0/cameras.bin", cameras);
     const io::Dataset dataset = io::open_dataset(scratch.path());
