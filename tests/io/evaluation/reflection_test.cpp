@@ -16,7 +16,7 @@ namespace reflection_test {
 namespace {
 
 // A winding path; in a plane where `height` is 0.
-io::Trajectory winding(double height = 0.6) {
+io::Trajectory curve(double height = 0.6) {
   io::Trajectory path;
   for (int i = 0; i < 80; ++i) {
     const double a = 0.13 * i;
@@ -48,7 +48,7 @@ std::string notes(const io::Trajectory& truth, const io::Trajectory& estimate,
 
 TEST_CASE("A mirror image is told with both errors, and the figure stays that of a rotation") {
   using namespace reflection_test;
-  const io::Trajectory truth = winding();
+  const io::Trajectory truth = curve();
   for (int axis = 0; axis < 3; ++axis) {
     io::Trajectory estimate = mirror(truth, axis);
     Random random(7);
@@ -71,7 +71,7 @@ TEST_CASE("A mirror image is told with both errors, and the figure stays that of
 
 TEST_CASE("A mirror image of a path in a plane is told by its rotations") {
   using namespace reflection_test;
-  const io::Trajectory truth = winding(0);
+  const io::Trajectory truth = curve(0);
   CHECK(contains(
       notes(truth, mirror(truth, 0)),
       "seems to be a mirror image of the ground truth: with its x negated the rotations would agree"));
@@ -79,9 +79,9 @@ TEST_CASE("A mirror image of a path in a plane is told by its rotations") {
 
 TEST_CASE("What is no mirror image is not taken for one") {
   using namespace reflection_test;
-  const io::Trajectory truth = winding();
+  const io::Trajectory truth = curve();
   CHECK(notes(truth, truth).empty());
-  CHECK(notes(winding(0), winding(0)).empty());
+  CHECK(notes(curve(0), curve(0)).empty());
   io::Trajectory estimate = truth;
   Random random(3);
   for (io::StampedPose& pose : estimate)
