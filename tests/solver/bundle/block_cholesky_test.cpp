@@ -38,7 +38,7 @@ void fill(const Dense<S>& a, BlockCholesky<S>& cholesky) {
   cholesky.clear();
   for (std::size_t r = 0; r < kColumns.size(); ++r)
     for (const int c : kColumns[r])
-      cholesky.set(static_cast<int>(r), c, a.template block<6, 6>(6 * static_cast<int>(r), 6 * c));
+      cholesky.add(static_cast<int>(r), c, a.template block<6, 6>(6 * static_cast<int>(r), 6 * c));
 }
 
 }  // namespace block_cholesky_test
@@ -82,7 +82,7 @@ TEST_CASE("Blocks that are cleared are zero, and none need stand beside the diag
   cholesky.analyse(diagonal);
   cholesky.clear();
   CHECK_FALSE(cholesky.factor());
-  for (int r = 0; r < 2; ++r) cholesky.set(r, r, (r + 1) * BlockCholesky<double>::Block::Identity());
+  for (int r = 0; r < 2; ++r) cholesky.add(r, r, (r + 1) * BlockCholesky<double>::Block::Identity());
   REQUIRE(cholesky.factor());
   BlockCholesky<double>::VecX x = BlockCholesky<double>::VecX::Constant(12, 4);
   cholesky.solve(x);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cholesky factorisation of a sparse symmetric matrix of blocks of six: the views of a whole map share
+// Cholesky factorisation of a sparse symmetric matrix of square blocks: the views of a whole map share
 // landmarks with few others. Ordered by approximate minimum degree, column by column, looking to the right.
 #pragma once
 
@@ -14,10 +14,10 @@
 
 namespace sslam {
 
-template <Scalar S>
+template <Scalar S, int Side = 6>
 class BlockCholesky {
  public:
-  static constexpr int kSide = 6;
+  static constexpr int kSide = Side;
   using Block = Mat<S, kSide, kSide>;
   using VecX = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
@@ -53,15 +53,15 @@ class BlockCholesky {
     std::fill(blocks_.begin(), blocks_.end(), Block::Zero());
   }
 
-  // A block of the lower half, which analyse() has been told of.
-  void set(int row, int col, const Block& block) {
+  // To a block of the lower half, which analyse() has been told of.
+  void add(int row, int col, const Block& block) {
     const int a = place_[index(row)], b = place_[index(col)];
     if (a == b)
-      diagonal_[index(a)] = block;
+      diagonal_[index(a)] += block;
     else if (a > b)
-      blocks_[find(a, index(b))] = block;
+      blocks_[find(a, index(b))] += block;
     else
-      blocks_[find(b, index(a))] = block.transpose();
+      blocks_[find(b, index(a))] += block.transpose();
   }
 
   // False where the matrix is not positive definite.

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spreads what loops reveal over a graph of poses: least squares on Sim(3) with a sparse Cholesky
-// factorisation.
+// factorisation by blocks of seven.
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "sslam/core/parameter.hpp"
 #include "sslam/residual/loss.hpp"
 #include "sslam/residual/similarity_edge.hpp"
+#include "sslam/solver/bundle/block_cholesky.hpp"
 #include "sslam/solver/bundle/bundle_summary.hpp"
 #include "sslam/solver/bundle/bundle_ties.hpp"
 #include "sslam/solver/bundle/pose_graph.hpp"
@@ -45,10 +47,16 @@ class PoseGraphSolver {
   BundleSummary solve(PoseGraph<S>& graph);
 
  private:
-  using Block = Mat<S, 7, 7>;
-  using Sparse = Eigen::SparseMatrix<S>;
-  using VecX = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using Factor = BlockCholesky<S, 7>;
+  using Block = typename Factor::Block;
+  using VecX = typename Factor::VecX;
   static constexpr int kHeld = -1;
+
+  // What an edge between two free nodes adds beside the diagonal, in the lower half.
+  struct Coupling {
+    int row, col;
+    Block block;
+  };
 
   struct Descent {
     PoseGraphSolver& solver;
@@ -73,7 +81,17 @@ class PoseGraphSolver {
       slots_.push_back(node.held ? kHeld : next++);
     }
     right_.resize(7 * next);
-    system_.resize(7 * next, 7 * next);
+    diagonal_.resize(static_cast<std::size_t>(next));
+  }
+
+  void analyse(const PoseGraph<S>& graph) {
+    std::vector<std::vector<int>> columns(diagonal_.size());
+    for (std::size_t r = 0; r < columns.size(); ++r) columns[r].push_back(static_cast<int>(r));
+    for (const PoseGraphEdge<S>& edge : graph.edges) {
+      const int f = slots_[index(edge.from)], t = slots_[index(edge.to)];
+      if (f != kHeld && t != kHeld) columns[index(std::max(f, t))].push_back(std::min(f, t));
+    }
+    factor_.analyse(columns);
   }
 
   // Calls edge(edge, whitened derivatives) and tie(node, error, weight, derivative) for each term; returns
@@ -100,52 +118,47 @@ class PoseGraphSolver {
   }
 
   [[nodiscard]] S linearise(const PoseGraph<S>& graph) {
-    triplets_.clear();
     right_.setZero();
-    for (int i = 0; i < static_cast<int>(right_.size()); ++i) triplets_.emplace_back(i, i, S(0));
-    const S cost = visit(
+    std::fill(diagonal_.begin(), diagonal_.end(), Block::Zero());
+    couplings_.clear();
+    return visit(
         graph, state_,
         [&](const PoseGraphEdge<S>& edge, const SimilarityEdge<S>& seen) {
           const Block from = edge.inverse_sigma.asDiagonal() * seen.by_from;
           const Block to = edge.inverse_sigma.asDiagonal() * seen.by_to;
           const int f = slots_[index(edge.from)], t = slots_[index(edge.to)];
-          add(f, f, from.transpose() * from, from.transpose() * seen.error);
-          add(t, t, to.transpose() * to, to.transpose() * seen.error);
-          if (f != kHeld && t != kHeld)
-            add_block(std::max(f, t), std::min(f, t),
-                      f > t ? Block(from.transpose() * to) : Block(to.transpose() * from));
+          add(f, from.transpose() * from, from.transpose() * seen.error);
+          add(t, to.transpose() * to, to.transpose() * seen.error);
+          if (f == kHeld || t == kHeld) return;
+          couplings_.push_back({std::max(f, t), std::min(f, t),
+                                f > t ? Block(from.transpose() * to) : Block(to.transpose() * from)});
         },
         [&](std::size_t node, const Vec3<S>& error, S weight, const Mat3<S>& derivative) {
           Block square = Block::Zero();
           Vec<S, 7> gradient = Vec<S, 7>::Zero();
           square.template topLeftCorner<3, 3>() = weight * derivative.transpose() * derivative;
           gradient.template head<3>() = weight * derivative.transpose() * error;
-          add(slots_[node], slots_[node], square, gradient);
+          add(slots_[node], square, gradient);
         });
-    system_.setFromTriplets(triplets_.begin(), triplets_.end());
-    return cost;
   }
 
-  void add(int row, int col, const Block& block, const Vec<S, 7>& gradient) {
-    if (row == kHeld) return;
-    add_block(row, col, block);
-    right_.template segment<7>(7 * row) += gradient;
-  }
-
-  // The lower half alone.
-  void add_block(int row, int col, const Block& block) {
-    for (int c = 0; c < 7; ++c)
-      for (int r = row == col ? c : 0; r < 7; ++r)
-        triplets_.emplace_back(7 * row + r, 7 * col + c, block(r, c));
+  void add(int slot, const Block& square, const Vec<S, 7>& gradient) {
+    if (slot == kHeld) return;
+    diagonal_[index(slot)] += square;
+    right_.template segment<7>(7 * slot) += gradient;
   }
 
   [[nodiscard]] bool compute_steps(S damping) {
-    damped_ = system_;
-    for (Eigen::Index i = 0; i < damped_.rows(); ++i)
-      damped_.coeffRef(i, i) += damping * std::max(damped_.coeff(i, i), S(1e-9));
-    factor_.factorize(damped_);
-    if (factor_.info() != Eigen::Success) return false;
-    steps_ = -factor_.solve(right_);
+    factor_.clear();
+    for (int r = 0; r < static_cast<int>(diagonal_.size()); ++r) {
+      Block damped = diagonal_[index(r)];
+      damped.diagonal() += damping * damped.diagonal().cwiseMax(S(1e-9));
+      factor_.add(r, r, damped);
+    }
+    for (const Coupling& coupling : couplings_) factor_.add(coupling.row, coupling.col, coupling.block);
+    if (!factor_.factor()) return false;
+    steps_ = -right_;
+    factor_.solve(steps_);
     return steps_.allFinite();
   }
 
@@ -159,11 +172,11 @@ class PoseGraphSolver {
   [[nodiscard]] static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
   std::vector<Sim3<S>> state_, trial_;
-  std::vector<int> slots_;  // by node: its place among the free ones
-  std::vector<Eigen::Triplet<S>> triplets_;
-  Sparse system_, damped_;  // lower half
+  std::vector<int> slots_;       // by node: its place among the free ones
+  std::vector<Block> diagonal_;  // by slot
+  std::vector<Coupling> couplings_;
   VecX right_, steps_;
-  Eigen::SimplicialLLT<Sparse> factor_;
+  Factor factor_;
 };
 
 template <Scalar S>
@@ -178,7 +191,7 @@ BundleSummary PoseGraphSolver<S>::solve(PoseGraph<S>& graph) {
     summary.status = Status::kNotFinite;
     return summary;
   }
-  factor_.analyzePattern(system_);
+  analyse(graph);
   summary.status = descend<S>(descent, options, cost, summary.iterations);
   summary.final_cost = static_cast<double>(cost) / 2;
   if (improved(summary))

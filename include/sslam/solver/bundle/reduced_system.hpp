@@ -126,7 +126,7 @@ class SparseSystem {
         for (Eigen::Index c = 0; c < width; ++c)
           for (Eigen::Index r = 0; r < height; ++r)
             block(r, c) = values_[entry.first + static_cast<std::size_t>(c * height + r)];
-        factor_.set(static_cast<int>(n), static_cast<int>(col), block);
+        factor_.add(static_cast<int>(n), static_cast<int>(col), block);
       }
   }
 

@@ -20,7 +20,7 @@
 #include "sslam/track/loops/loop_detection.hpp"
 #include "sslam/track/loops/loop_evidence.hpp"
 #include "sslam/track/loops/map_join.hpp"
-#include "sslam/track/mapping/fusion.hpp"
+#include "sslam/track/loops/place_joining.hpp"
 
 namespace sslam {
 
@@ -50,7 +50,7 @@ class LoopClosing {
   EssentialGraph<S> essential;
   PoseGraphSolver<S> pose_graph;
   MapAdjustment<S, BundleSolver<S>> adjustment;
-  LandmarkFusion<S> fusion;
+  PlaceJoining<S> joining;
 
   // With those of its detection, adjustment and fusion.
   template <class Self, class Visit>
@@ -60,7 +60,7 @@ class LoopClosing {
     visit_stage("graph.", self.essential, visit);
     visit_stage("graph.", self.pose_graph, visit);
     visit_stage("adjustment.", self.adjustment, visit);
-    visit_stage("fusion.", self.fusion, visit);
+    visit_stage("fusion.", self.joining.fusion, visit);
   }
 
   // Drift bends the map as a whole, which is slow to adjust.
@@ -94,7 +94,7 @@ class LoopClosing {
   // How far the map has the place from where the keyframe sees it. A small drift needs no second sighting.
   [[nodiscard]] Drift drift(const Map<S>& map, KeyframeId id, const Loop<S>& loop) const {
     const Keyframe<S>& keyframe = map.keyframes[map.index(id)];
-    if (share_in_place<S>(map, keyframe, loop, fusion.options.point_radius) >= options.in_place)
+    if (share_in_place<S>(map, keyframe, loop, joining.fusion.options.point_radius) >= options.in_place)
       return Drift::kInPlace;
     const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
     return share_in_place<S>(map, keyframe, loop, nearby.reach) < nearby.min_share ? Drift::kLarge
@@ -128,23 +128,6 @@ class LoopClosing {
     return true;
   }
 
-  // What the keyframe and its neighbours see of the place's landmarks becomes one with theirs.
-  void join(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
-    std::vector<KeyframeId> here;
-    take_with_neighbours(map.keyframes[map.index(id)], map.keyframes.size(), here);
-    place_.gather_around(map, loop.place, options.place_keyframes);
-    take_over(
-        map, id, loop.point_landmarks, &Keyframe<S>::point_landmarks, map.points,
-        [&](LandmarkId from, LandmarkId into) { map.fuse_points(from, into); },
-        [&](LandmarkId landmark, std::size_t feature) { map.observe_point(landmark, id, feature); });
-    take_over(
-        map, id, loop.line_landmarks, &Keyframe<S>::line_landmarks, map.lines,
-        [&](LandmarkId from, LandmarkId into) { map.fuse_lines(from, into); },
-        [&](LandmarkId landmark, std::size_t feature) { map.observe_line(landmark, id, feature); });
-    for (const KeyframeId k : here) fusion.take_in(map, k, place_.points, place_.lines);
-    for (const KeyframeId k : here) map.update_covisibility(k);
-  }
-
   // By what these keyframes show the place and what is around it.
   [[nodiscard]] std::vector<Sighting> sightings(const Map<S>& map, std::span<const KeyframeId> keyframes,
                                                 KeyframeId place) {
@@ -161,30 +144,11 @@ class LoopClosing {
     return all;
   }
 
-  // Both sides look for what the other one sees, where the adjusted map has it.
-  void match_both_ways(Map<S>& map, std::span<const KeyframeId> here, KeyframeId id) {
-    around_.gather_around(map, id, here.size());
-    for (const KeyframeId k : here) fusion.take_in(map, k, place_.points, place_.lines);
-    for (const KeyframeId k : place_.keyframes) fusion.take_in(map, k, around_.points, around_.lines);
-    for (const KeyframeId k : here) map.update_covisibility(k);
-    for (const KeyframeId k : place_.keyframes) map.update_covisibility(k);
+  void join(Map<S>& map, KeyframeId id, const Loop<S>& loop) {
+    joining.join(map, id, loop, options.place_keyframes);
   }
 
-  template <class Seen, class Landmarks, class Fuse, class Observe>
-  static void take_over(Map<S>& map, KeyframeId id, const std::vector<LandmarkId>& of_place, Seen seen,
-                        const Landmarks& landmarks, Fuse fuse, Observe observe) {
-    for (std::size_t i = 0; i < of_place.size(); ++i) {
-      if (of_place[i] == kNone || !landmarks[map.index(of_place[i])].alive) continue;
-      const LandmarkId own = (map.keyframes[map.index(id)].*seen)[i];
-      if (own == of_place[i] || landmarks[map.index(of_place[i])].seen_by(id)) continue;
-      if (own != kNone)
-        fuse(own, of_place[i]);
-      else
-        observe(of_place[i], i);
-    }
-  }
-
-  LocalMap<S> place_, around_;
+  LocalMap<S> around_;
   std::vector<Sim3<S>> new_from_old_;
   std::optional<PlaceMatch<S>> met_;  // a place that may be one which was left long ago
 };
@@ -227,10 +191,10 @@ LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
   if (!bend(trial, id, *loop)) return {};
   join(trial, id, *loop);
   adjustment.optimise(trial, id);
-  match_both_ways(trial, here, id);
+  joining.match_both_ways(trial, here, id);
   adjustment.optimise(trial, id);
   const PlaceConfirmationOptions<S>& second = detection.confirmation.options;
-  if (shared_beside<S>(trial, known, here, place_.keyframes, second.apart) < second.min_new) return {};
+  if (shared_beside<S>(trial, known, here, joining.there(), second.apart) < second.min_new) return {};
   adjustment.optimise_all(trial);
   map = std::move(trial);
   return {true, new_from_old_};
