@@ -3,7 +3,6 @@
 
 #include "cli/shell/toml_parser.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "cli/shell/usage_text.hpp"
 #include "sslam/core/closest_word.hpp"
 #include "sslam/core/error.hpp"
+#include "sslam/core/shortest_text.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -48,19 +48,12 @@ const char* wanted_text(Wanted wanted) {
   return "";
 }
 
-// The shortest text that reads back as the same number.
-std::string shortest_number(double value) {
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
-
 // What stands in the file, for people.
 std::string found_text(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return "the text \"" + *text + "\"";
   if (node.is_boolean()) return node.value_or(false) ? "true" : "false";
   if (const auto whole = node.value_exact<std::int64_t>()) return "the number " + std::to_string(*whole);
-  if (node.is_floating_point()) return "the number " + shortest_number(node.value_or(0.0));
+  if (node.is_floating_point()) return "the number " + shortest_text(node.value_or(0.0));
   if (node.is_array()) return "a list";
   return node.is_table() ? "a table" : "a date or a time";
 }
@@ -148,7 +141,7 @@ class ConfigReader {
     constexpr double kLargest = 1e15;  // whole to the last digit
     if (wanted == Wanted::kWhole && number == std::floor(number) && std::abs(number) < kLargest)
       return std::to_string(static_cast<std::int64_t>(number));
-    if (wanted == Wanted::kNumber && node.is_number()) return shortest_number(number);
+    if (wanted == Wanted::kNumber && node.is_number()) return shortest_text(number);
     refuse(key, node, wanted_text(wanted));
   }
 
@@ -162,7 +155,7 @@ class ConfigReader {
       }
       const auto whole = node.value_exact<std::int64_t>();
       if (!node.is_number()) refuse("set." + name, node, "a number");
-      const std::string value = whole ? std::to_string(*whole) : shortest_number(node.value_or(0.0));
+      const std::string value = whole ? std::to_string(*whole) : shortest_text(node.value_or(0.0));
       const std::vector<std::string> given = option.results();
       option.clear();
       option.add_result(name + "=" + value);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sslam/core/closest_word.hpp"
+#include "sslam/core/colmap_bytes.hpp"
 #include "sslam/core/colmap_cameras.hpp"
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/error.hpp"
@@ -16,6 +17,7 @@
 #include "sslam/core/plain_text.hpp"
 #include "sslam/core/random.hpp"
 #include "sslam/core/sha256.hpp"
+#include "sslam/core/shortest_text.hpp"
 #include "sslam/core/status.hpp"
 #include "sslam/core/text_flow.hpp"
 #include "sslam/core/text_node.hpp"
@@ -192,6 +194,7 @@
 #include "sslam/track/loops/map_join.hpp"
 #include "sslam/track/loops/no_loop_closing.hpp"
 #include "sslam/track/loops/place_confirmation.hpp"
+#include "sslam/track/loops/place_joining.hpp"
 #include "sslam/track/mapping/feature_follower.hpp"
 #include "sslam/track/mapping/fusion.hpp"
 #include "sslam/track/mapping/initialisation.hpp"

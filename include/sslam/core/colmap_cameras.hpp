@@ -3,16 +3,16 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sslam/core/colmap_bytes.hpp"
 #include "sslam/core/error.hpp"
+#include "sslam/core/shortest_text.hpp"
 
 namespace sslam {
 
@@ -47,22 +47,17 @@ inline constexpr std::array<Model, 11> kModels{{{"SIMPLE_PINHOLE", 3},
 // Of the bytes of a cameras.bin. Throws Error in one line.
 [[nodiscard]] inline std::vector<ColmapCamera> parse_colmap_binary(std::string_view bytes,
                                                                    const std::string& source) {
-  std::size_t at = 0;
-  const auto take = [&](auto& value) {
-    if (bytes.size() - at < sizeof value) throw Error(source + ": is cut off, or no cameras.bin of COLMAP");
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    at += sizeof value;
-  };
+  ColmapBytes left(bytes, source, "cameras.bin");
   std::uint64_t count = 0;
-  take(count);
+  left.take(count);
   std::vector<ColmapCamera> cameras;
   for (std::uint64_t i = 0; i < count; ++i) {
     ColmapCamera camera;
     std::int32_t id = 0, model = 0;
-    take(id);
-    take(model);
-    take(camera.width);
-    take(camera.height);
+    left.take(id);
+    left.take(model);
+    left.take(camera.width);
+    left.take(camera.height);
     if (model < 0 || static_cast<std::size_t>(model) >= colmap_detail::kModels.size())
       throw Error(source + ": camera " + std::to_string(id) + " has the model number " +
                   std::to_string(model) + ", which is not known; expected 0 to 10, or a cameras.txt");
@@ -72,10 +67,8 @@ inline constexpr std::array<Model, 11> kModels{{{"SIMPLE_PINHOLE", 3},
                  " " + std::to_string(camera.height);
     for (std::size_t k = 0; k < known.numbers; ++k) {
       double number = 0;
-      take(number);
-      char text[32];
-      const auto end = std::to_chars(text, text + sizeof text, number).ptr;
-      camera.row += " " + std::string(text, end);
+      left.take(number);
+      camera.row += " " + shortest_text(number);
     }
     cameras.push_back(std::move(camera));
   }

@@ -2,12 +2,12 @@
 // What a field of a file may hold: a reader refuses everything else.
 #pragma once
 
-#include <charconv>
 #include <limits>
 #include <string>
 #include <type_traits>
 
 #include "sslam/core/error.hpp"
+#include "sslam/core/shortest_text.hpp"
 
 namespace sslam::io {
 
@@ -24,14 +24,8 @@ struct FieldRange {
   // Throws Error when it does not hold the value.
   void demand(T value) const {
     if (holds(value)) return;
-    throw Error(std::string(name) + " is " + text(value) + "; expected " + text(least) + " to " + text(most));
-  }
-
- private:
-  [[nodiscard]] static std::string text(T value) {
-    char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
-    return {digits, end};
+    throw Error(std::string(name) + " is " + shortest_text(value) + "; expected " + shortest_text(least) +
+                " to " + shortest_text(most));
   }
 };
 

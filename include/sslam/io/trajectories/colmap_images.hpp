@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sslam/core/colmap_bytes.hpp"
 #include "sslam/io/files/plain_text.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/trajectories/pose_row.hpp"
@@ -67,32 +68,21 @@ struct NamedPose {
 // Throws Error in one line.
 [[nodiscard]] inline std::vector<NamedPose> read_colmap_binary(const std::filesystem::path& path) {
   const std::string bytes = read_text(path);
-  std::size_t at = 0;
-  const auto take = [&](auto& value) {
-    if (bytes.size() - at < sizeof value)
-      throw Error(path.string() + ": is cut off, or no images.bin of COLMAP");
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    at += sizeof value;
-  };
+  ColmapBytes left(bytes, path.string(), "images.bin");
   std::uint64_t count = 0;
-  take(count);
+  left.take(count);
   std::vector<NamedPose> images;
   for (std::uint64_t i = 0; i < count; ++i) {
     std::int32_t id = 0, camera = 0;
     double v[7];
-    take(id);
-    take(v);
-    take(camera);
-    const std::size_t end = bytes.find('\0', at);
-    if (end == std::string::npos) throw Error(path.string() + ": is cut off, or no images.bin of COLMAP");
-    std::string why, name = bytes.substr(at, end - at);
-    at = end + 1;
+    left.take(id);
+    left.take(v);
+    left.take(camera);
+    std::string why, name = left.take_name();
     std::uint64_t features = 0;
-    take(features);
-    constexpr std::uint64_t kFeature = 24;  // bytes: x, y, and the id of a point
-    if (features > (bytes.size() - at) / kFeature)
-      throw Error(path.string() + ": is cut off, or no images.bin of COLMAP");
-    at += static_cast<std::size_t>(features * kFeature);
+    left.take(features);
+    constexpr std::size_t kFeature = 24;  // bytes: x, y, and the id of a point
+    left.skip(features, kFeature);
     const auto pose = pose_of_colmap(v, why);
     if (!pose) throw Error(path.string() + ": image " + std::to_string(id) + ": " + why);
     images.push_back({std::move(name), *pose, camera});
