@@ -3,29 +3,13 @@
 // or from a distance that is known.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-
 #include "cli/results/frame_record.hpp"
 #include "cli/results/scale_record.hpp"
+#include "cli/run/scale_wish.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 
 namespace sslam::cli {
-
-enum class ScaleMethod { kNone, kDepth, kHeight, kKnown };
-
-// What --scale asks for.
-struct ScaleWish {
-  ScaleMethod method = ScaleMethod::kNone;
-  double metres = 0;                          // height, or known distance
-  std::optional<std::int64_t> first, second;  // frames that are `metres` apart; empty: the first and the last
-                                              // with a pose
-};
-
-// "none", "depth", "height=1.4", "known=2.5", "known=2.5@120:480". Throws UsageError.
-[[nodiscard]] ScaleWish parse_scale(const std::string& text);
 
 // Whether the dataset has what is asked for, before anything is tracked. Throws Error.
 void check_scale(const ScaleWish& wish, const io::Dataset& dataset, double depth_factor);
