@@ -49,7 +49,7 @@ Json times_json(const RunOutcome& outcome) {
           {"tracking_ms", quantiles(tracking)}};
 }
 
-std::size_t count_frames(const RunOutcome& outcome, bool TrackResult<double>::*mark) {
+std::size_t count_frames(const RunOutcome& outcome, bool FrameRecord::*mark) {
   return static_cast<std::size_t>(std::count_if(outcome.frames.begin(), outcome.frames.end(),
                                                 [mark](const FrameRecord& frame) { return frame.*mark; }));
 }
@@ -82,11 +82,6 @@ Json versions_json() {
 double share_tracked(const RunContext& context, const RunOutcome& outcome) {
   const std::size_t total = context.dataset.frames.size();
   return total == 0 ? 0 : static_cast<double>(outcome.trajectory.size()) / static_cast<double>(total);
-}
-
-auto count_bridged(const RunOutcome& outcome) {
-  return std::count_if(outcome.frames.begin(), outcome.frames.end(),
-                       [](const FrameRecord& frame) { return frame.bridged; });
 }
 
 std::size_t count_asked(const RunOutcome& outcome, NormalNeed need) {
@@ -151,7 +146,7 @@ nlohmann::ordered_json metrics_json(const RunContext& context, const RunOutcome&
   Json metrics = {{"frames", context.dataset.frames.size()},
                   {"tracked", outcome.trajectory.size()},
                   {"tracked_live", tracked_live},
-                  {"bridged", count_bridged(outcome)},
+                  {"bridged", count_frames(outcome, &FrameRecord::bridged)},
                   {"share_tracked", share_tracked(context, outcome)},
                   {"frames_dropped", outcome.frames_dropped},
                   {"stream_losses", outcome.stream_losses},
