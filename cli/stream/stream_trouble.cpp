@@ -17,7 +17,7 @@ extern "C" {
 namespace sslam::cli {
 namespace {
 
-constexpr std::string_view kSecureSchemes = "https rtsps rtmps";
+constexpr std::array<std::string_view, 3> kSecureSchemes{"https", "rtsps", "rtmps"};
 
 std::string code_text(int code) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
@@ -72,7 +72,7 @@ std::string trouble_of_answer(const Answer& answer) {
 
 std::string unknown_scheme(const std::string& url) {
   return "'" + scheme_of(url) +
-         "' is no protocol that is read here; expected http, https, rtsp, rtmp, udp, " + "rtp or srt";
+         "' is no protocol that is read here; expected http, https, rtsp, rtmp, udp, rtp or srt";
 }
 
 }  // namespace
@@ -110,9 +110,8 @@ std::string trouble_at_opening(int code, const std::string& url, const std::stri
   }
   switch (code) {
     case AVERROR(ECONNREFUSED):
-      return "the host answers, but nothing listens at this port (Connection refused); is the stream's "
-             "server "
-             "running, and is the port right?";
+      return "the host answers, but nothing listens at this port (Connection refused); does the stream's "
+             "server run, and is the port right?";
     case AVERROR(ENETUNREACH):
     case AVERROR(EHOSTUNREACH):
       return "the host cannot be reached (" + code_text(code) + "); is it in this network?";
@@ -125,8 +124,8 @@ std::string trouble_at_opening(int code, const std::string& url, const std::stri
       return "closes the connection without an answer; is it the server of a stream, and is '" + scheme +
              "' its protocol?";
     case AVERROR_HTTP_UNAUTHORIZED:
-      return "wants a user and a password, or other ones (401 Unauthorized); expected " + scheme +
-             "://USER:PASSWORD@" + host_of(url) + "/...";
+      return "needs a user name and a password, or refuses those given (401 Unauthorized); expected " +
+             scheme + "://USER:PASSWORD@" + host_of(url) + "/...";
     case AVERROR_HTTP_FORBIDDEN:
       return "the server does not allow this (403 Forbidden)";
     case AVERROR_HTTP_NOT_FOUND:
@@ -141,7 +140,7 @@ std::string trouble_at_opening(int code, const std::string& url, const std::stri
     default:
       break;
   }
-  if (kSecureSchemes.find(scheme) != std::string_view::npos && !scheme.empty() &&
+  if (std::find(kSecureSchemes.begin(), kSecureSchemes.end(), scheme) != kSecureSchemes.end() &&
       (contains(said, "TLS") || contains(said, "SSL") || contains(said, "handshake")))
     return "the secure connection fails (" + first_line(said) + "); does the server speak '" +
            scheme.substr(0, scheme.size() - 1) + "'?";

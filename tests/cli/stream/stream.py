@@ -183,7 +183,7 @@ def check_refusals(program, scratch):
     with Camera(lambda number, send: None) as camera:
         refused(camera.address, words="closes the connection without an answer")
     with Camera(lambda number, send: send(b"HTTP/1.1 401 Unauthorized\r\n\r\n")) as camera:
-        refused(camera.address, words="wants a user and a password, or other ones (401 Unauthorized); expected http://USER:PASSWORD@127.0.0.1/")
+        refused(camera.address, words="needs a user name and a password, or refuses those given (401 Unauthorized); expected http://USER:PASSWORD@127.0.0.1/")
     with Camera(lambda number, send: send(b"HTTP/1.1 503 Busy\r\n\r\n")) as camera:
         refused(camera.address, words="the server has failed")
     with Camera(lambda number, send: send(b"HTTP/1.1 404 Not Found\r\n\r\n")) as camera:
