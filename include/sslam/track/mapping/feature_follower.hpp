@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sslam/solver/two_view/rotation_from_bearings.hpp"
 #include "sslam/track/contract/tracked_frame.hpp"
+#include "sslam/track/matching/frame_turn.hpp"
 #include "sslam/track/matching/mutual_matcher.hpp"
 
 namespace sslam {
@@ -72,16 +72,13 @@ class FeatureFollower {
     keep_consistent_rotation<S>(reference.frame.points, frame.frame.points, pairs);
   }
 
-  // How the camera has turned since the last frame, by the pixels of the pairs. Parallax moves them too, by
-  // more than features are off.
+  // How the camera has turned since the last frame, by the pixels of the pairs.
   void measure_turn(const TrackedFrame<S>& frame, std::uint64_t seed) {
-    constexpr S kParallax = 3;  // standard deviations of a feature
     const Pinhole<S>& k = frame.frame.pinhole;
     bearings_.clear();
     for (const IndexPair& p : pairs_) {
       const PointFeature<S>& to = frame.frame.points[Map<S>::index(p.second)];
-      bearings_.push_back({k.unproject(last_pixels_[Map<S>::index(p.first)]), k.unproject(to.pixel),
-                           kParallax * to.sigma / k.fx});
+      bearings_.push_back(match_of_turn<S>(k.unproject(last_pixels_[Map<S>::index(p.first)]), to, k));
     }
     const auto measured = rotation_from_bearings<S>(bearings_, {}, seed);
     last_turn_ = usable(measured.status) ? measured.R_10 : SO3<S>();

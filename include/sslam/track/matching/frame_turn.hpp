@@ -20,6 +20,14 @@ template <Scalar S>
   return {R_10 * cam_from_world.rotation, R_10 * cam_from_world.translation};
 }
 
+// What a match says of a turn: parallax may move its feature by three standard deviations.
+template <Scalar S>
+[[nodiscard]] BearingMatch<S> match_of_turn(const Vec3<S>& from, const PointFeature<S>& to,
+                                            const Pinhole<S>& pinhole) {
+  constexpr S kParallax = 3;
+  return {from, pinhole.unproject(to.pixel), kParallax * to.sigma / pinhole.fx};
+}
+
 template <Scalar S>
 class FrameTurn {
  public:
@@ -38,17 +46,13 @@ class FrameTurn {
     for (const IndexPair& p : pairs_) {
       const PointFeature<S>& a = from.points[static_cast<std::size_t>(p.first)];
       const PointFeature<S>& b = to.points[static_cast<std::size_t>(p.second)];
-      bearings_.push_back({from.pinhole.unproject(a.pixel), to.pinhole.unproject(b.pixel),
-                           kParallax * b.sigma / to.pinhole.fx});
+      bearings_.push_back(match_of_turn<S>(from.pinhole.unproject(a.pixel), b, to.pinhole));
     }
     const RotationFromBearings<S> found = rotation_from_bearings<S>(bearings_, {}, 1);
     return usable(found.status) ? std::optional(found.R_10) : std::nullopt;
   }
 
  private:
-  // Standard deviations of a feature that parallax may move it by.
-  static constexpr S kParallax = 3;
-
   MutualMatcher matcher_;
   std::vector<IndexPair> pairs_;
   std::vector<BearingMatch<S>> bearings_;
