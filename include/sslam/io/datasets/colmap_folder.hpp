@@ -44,16 +44,18 @@ namespace colmap_folder_detail {
   return read_colmap_text(model / "images.txt", split_rows(text));
 }
 
-[[nodiscard]] inline std::string folder_of_name(const std::string& name) {
-  return std::filesystem::path(name).parent_path().string();
+// In which the images lie, as their names say.
+[[nodiscard]] inline std::set<std::string> folders_of(const std::vector<NamedPose>& poses) {
+  std::set<std::string> folders;
+  for (const NamedPose& pose : poses) folders.insert(std::filesystem::path(pose.name).parent_path().string());
+  return folders;
 }
 
 // The names of the sequence in natural order: all images of the folder where the model's lie in it alone,
 // since the model may leave some out; else those of the model.
 [[nodiscard]] inline std::vector<std::filesystem::path> sequence(const std::filesystem::path& images,
+                                                                 const std::set<std::string>& folders,
                                                                  const std::vector<NamedPose>& poses) {
-  std::set<std::string> folders;
-  for (const NamedPose& pose : poses) folders.insert(folder_of_name(pose.name));
   if (folders.size() == 1)
     if (auto all = list_files(images / *folders.begin(), is_image_name); !all.empty()) return all;
   std::vector<std::filesystem::path> named;
@@ -111,16 +113,14 @@ inline void choose_camera(Dataset& dataset, const std::filesystem::path& model,
                               images = colmap_folder_detail::find_images(root);
   const std::vector<NamedPose> poses = colmap_folder_detail::read_images(model);
   if (poses.empty()) throw Error(model.string() + ": holds no image; expected the images of a COLMAP model");
-  Dataset dataset = frames_from_images(images, colmap_folder_detail::sequence(images, poses), frame_rate);
+  const std::set<std::string> folders = colmap_folder_detail::folders_of(poses);
+  Dataset dataset =
+      frames_from_images(images, colmap_folder_detail::sequence(images, folders, poses), frame_rate);
   dataset.layout = Layout::kColmap;
   dataset.root = root;
   colmap_folder_detail::choose_camera(dataset, model, poses);
   std::map<std::string, const NamedPose*> by_file;
-  std::set<std::string> folders;
-  for (const NamedPose& pose : poses) {
-    by_file.emplace((images / pose.name).string(), &pose);
-    folders.insert(colmap_folder_detail::folder_of_name(pose.name));
-  }
+  for (const NamedPose& pose : poses) by_file.emplace((images / pose.name).string(), &pose);
   for (FrameEntry& frame : dataset.frames) {
     const auto pose = by_file.find(frame.image);
     if (pose == by_file.end()) continue;

@@ -73,12 +73,8 @@ namespace sslam::io {
   Dataset dataset = read_image_folder(root / "images", frame_rate);
   dataset.layout = Layout::kTimedImages;
   dataset.root = root;
-  std::error_code ignored;
-  for (const char* name : {"groundtruthSync.txt", "groundtruth.txt"})
-    if (std::filesystem::is_regular_file(root / name, ignored)) {
-      attach_truth_file(dataset, root / name);
-      break;
-    }
+  const auto truth = first_file({root / "groundtruthSync.txt", root / "groundtruth.txt"});
+  if (!truth.empty()) attach_truth_file(dataset, truth);
   return dataset;
 }
 

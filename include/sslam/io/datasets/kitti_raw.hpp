@@ -49,14 +49,6 @@ namespace kitti_raw_detail {
   return std::nullopt;
 }
 
-// The first of these files that is there; empty: none.
-[[nodiscard]] inline std::filesystem::path first_of(const std::vector<std::filesystem::path>& files) {
-  std::error_code ignored;
-  for (const std::filesystem::path& file : files)
-    if (std::filesystem::is_regular_file(file, ignored)) return file;
-  return {};
-}
-
 }  // namespace kitti_raw_detail
 
 // `root`: the drive (its left grey camera, else the left colour camera), a camera of it, or that camera's
@@ -112,8 +104,8 @@ inline void attach_numbered_matrices(Dataset& dataset, const std::filesystem::pa
   drop_bad_frames(dataset, place.images);
   const std::filesystem::path day = place.drive.parent_path(), set = day.parent_path();
   const std::filesystem::path calibration =
-      kitti_raw_detail::first_of({place.drive / "calib_cam_to_cam.txt", day / "calib_cam_to_cam.txt",
-                                  set / "calib_cam_to_cam.txt", set / "calibration/perspective.txt"});
+      first_file({place.drive / "calib_cam_to_cam.txt", day / "calib_cam_to_cam.txt",
+                  set / "calib_cam_to_cam.txt", set / "calibration/perspective.txt"});
   if (!calibration.empty()) {
     const std::string text = read_plain_text(calibration);
     dataset.camera_text = kitti_camera_text(text, place.camera, place.rectified);
@@ -122,8 +114,8 @@ inline void attach_numbered_matrices(Dataset& dataset, const std::filesystem::pa
   }
   if (std::filesystem::is_directory(place.drive / "oxts/data")) {
     attach_oxts(dataset, place.drive / "oxts", calibration, place.camera, place.rectified, stamps);
-  } else if (const auto poses = kitti_raw_detail::first_of(
-                 {set / "data_poses" / place.drive.filename() / "cam0_to_world.txt"});
+  } else if (const auto poses =
+                 first_file({set / "data_poses" / place.drive.filename() / "cam0_to_world.txt"});
              !poses.empty() && place.camera == "00") {
     attach_numbered_matrices(dataset, poses, stamps);
   }

@@ -29,9 +29,8 @@ namespace sslam::io {
   const std::filesystem::path full = std::filesystem::absolute(images / ".", ignored).lexically_normal();
   const std::filesystem::path folder = full.parent_path(), above = folder.parent_path();
   const auto list_in = [&](const std::filesystem::path& place) {
-    for (const char* name : {"times.txt", "timestamps.txt", "timestamps.csv", "times.csv"})
-      if (std::filesystem::is_regular_file(place / name, ignored)) return place / name;
-    return std::filesystem::path();
+    return first_file(
+        {place / "times.txt", place / "timestamps.txt", place / "timestamps.csv", place / "times.csv"});
   };
   if (auto list = list_in(folder); !list.empty()) return list;
   auto list = list_in(above);

@@ -3,7 +3,6 @@
 // negated axis. No rotation brings the two together.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -14,18 +13,6 @@
 #include "sslam/io/evaluation/statistics.hpp"
 
 namespace sslam::io {
-
-// The same motion seen in a world and a camera with one axis (0: x) turned over: t' = S t, R' = S R S.
-[[nodiscard]] inline SE3<double> mirrored(const SE3<double>& pose, int axis) {
-  const auto q = pose.rotation.quaternion();
-  std::array<double, 3> turn{-q.x(), -q.y(), -q.z()};
-  turn[static_cast<std::size_t>(axis)] *= -1;
-  SE3<double> other;
-  other.rotation = SO3<double>::from_quaternion(q.w(), turn[0], turn[1], turn[2]);
-  other.translation = pose.translation;
-  other.translation[axis] *= -1;
-  return other;
-}
 
 // The error of the positions, root mean square, after the best alignment with a reflection.
 [[nodiscard]] inline double reflected_rmse(std::vector<Vec3<double>> estimate,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,14 @@ namespace sslam::io {
                                         std::span<const std::string_view> extensions) {
   const std::string own = lower_case(path.extension().string());
   return std::find(extensions.begin(), extensions.end(), own) != extensions.end();
+}
+
+// The first of these that is a file; empty: none is.
+[[nodiscard]] inline std::filesystem::path first_file(std::initializer_list<std::filesystem::path> files) {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : files)
+    if (std::filesystem::is_regular_file(file, ignored)) return file;
+  return {};
 }
 
 [[nodiscard]] inline bool is_image_name(const std::filesystem::path& path) {

@@ -34,9 +34,8 @@ enum class RowLayout {
 }
 
 inline constexpr std::string_view kPoseRows =
-    "'stamp tx ty tz qx qy qz qw' (TUM), a table of EuRoC (8 or 17 columns), 'tx ty tz qx qy qz qw', or a "
-    "3x4 "
-    "or 4x4 matrix a row";
+    "'stamp tx ty tz qx qy qz qw' (TUM), a table of EuRoC (8 or 17 columns), 'tx ty tz qx qy qz qw', "
+    "or a 3x4 or 4x4 matrix a row";
 
 // What programs write where they have no number.
 [[nodiscard]] inline bool says_nothing(std::string_view cell) {

@@ -53,15 +53,23 @@ inline void write_stamps(const std::filesystem::path& path, std::span<const doub
   return positions;
 }
 
-// The same motion seen in a world and a camera with y turned over: t' = S t, R' = S R S, S = diag(1, -1, 1).
-// It takes the y-up poses of ICL-NUIM to our y-down axes, and back. In the quaternion x and z change sign,
-// since the axis of a rotation is a pseudovector.
-[[nodiscard]] inline SE3<double> mirror_y(const SE3<double>& pose) {
+// The same motion seen in a world and a camera with one axis (0: x) turned over: t' = S t, R' = S R S, where
+// S is the identity but for -1 at this axis. In the quaternion the other two change sign, since the axis of a
+// rotation is a pseudovector.
+[[nodiscard]] inline SE3<double> mirrored(const SE3<double>& pose, int axis) {
   const auto q = pose.rotation.quaternion();
-  SE3<double> mirrored;
-  mirrored.rotation = SO3<double>::from_quaternion(q.w(), -q.x(), q.y(), -q.z());
-  mirrored.translation = Vec3<double>(pose.translation.x(), -pose.translation.y(), pose.translation.z());
-  return mirrored;
+  Vec3<double> turn(-q.x(), -q.y(), -q.z());
+  turn[axis] *= -1;
+  SE3<double> other;
+  other.rotation = SO3<double>::from_quaternion(q.w(), turn[0], turn[1], turn[2]);
+  other.translation = pose.translation;
+  other.translation[axis] *= -1;
+  return other;
+}
+
+// Takes the y-up poses of ICL-NUIM to our y-down axes, and back.
+[[nodiscard]] inline SE3<double> mirror_y(const SE3<double>& pose) {
+  return mirrored(pose, 1);
 }
 
 inline void mirror_y(Trajectory& trajectory) {

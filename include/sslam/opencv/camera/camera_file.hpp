@@ -107,9 +107,8 @@ inline void complete_wide(CameraFile& read) {
   if (has("projection: [") && has("distortion: [") && has("+-"))
     return "is the report of Kalibr; expected the camchain.yaml beside it";
   if (has("fc = [") && has("cc = [") && has("kc = ["))
-    return "is a script of MATLAB's calibration toolbox; expected one row of text with fx fy cx cy (its fc "
-           "and "
-           "cc) and k1 k2 p1 p2 k3 (its kc)";
+    return "is a script of MATLAB's calibration toolbox; expected one row of text with fx fy cx cy (its "
+           "fc and cc) and k1 k2 p1 p2 k3 (its kc)";
   return {};
 }
 
