@@ -86,10 +86,10 @@ void run_suite(const BatchOptions& options) {
   folder.prepare(suite, plan, facts);
   const BatchOutcome outcome = run_batch(plan, settings);
   if (outcome.kept > 0 && options.verbosity != Verbosity::kQuiet)
-    print_note(std::to_string(outcome.kept) + " runs were done before and are kept");
+    print_note(std::to_string(outcome.kept) + " runs were already finished and are kept");
   (void)write_results(settings.folder, suite.against);
   if (outcome.interrupted) {
-    print_warning("interrupted; the runs that are done are kept, and the same command goes on from there");
+    print_warning("interrupted; finished runs are kept, and the same command continues from there");
     throw Stop{ExitCode::kInterrupted};
   }
   if (outcome.broken > 0)

@@ -118,10 +118,9 @@ std::string export_nerfstudio(const ExportSettings& settings, const RunFolder& r
   const NerfstudioCounts counts = write_nerfstudio(run, stage, out, settings.images);
   warn_of_strangers(counts.strangers);
   if (counts.missing > 0)
-    print_note(
-        "put " + std::to_string(counts.missing) + " images into " + (out / kStraightFolder).string() +
-        ", by the names in transforms.json, or let --images write them: the run's dataset is a video or a "
-        "bag, or no longer there");
+    print_note("put " + std::to_string(counts.missing) + " images into " + (out / kStraightFolder).string() +
+               ", with the names in transforms.json, or let --images write them: the run's dataset is a "
+               "video or a bag, or no longer exists");
   return "transforms.json (" + std::to_string(counts.images) + " keyframes), points.ply (" +
          std::to_string(counts.points) + " points)" + export_images(settings, run, stage);
 }
@@ -163,7 +162,7 @@ std::string export_floor_plan(const ExportSettings& settings, const RunFolder& r
     plan.walls = std::move(walls);
   if (plan.walls.empty())
     print_note(
-        "the map has no upright planes: the plan shows its lines and points without walls; a run with "
+        "the map has no vertical planes: the plan shows its lines and points without walls; a run with "
         "--dense finds more");
   write_floor_plan(stage / "floorplan.svg", plan, run.name, is_metric(run.metrics) ? "m" : "map units");
   return "floorplan.svg (" + std::to_string(plan.walls.size()) + " walls, " +
@@ -189,7 +188,7 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
 
 void run_export(const ExportSettings& settings) {
   if (settings.images && !names_images(settings.format))
-    throw UsageError("--images: goes with --format colmap, depth or nerfstudio, found " + settings.format);
+    throw UsageError("--images: needs --format colmap, depth or nerfstudio, found " + settings.format);
   const RunFolder run = read_run_folder(settings.run);
   const fs::path out =
       settings.out.empty() ? fs::path(settings.run) / settings.format : fs::path(settings.out);

@@ -55,7 +55,7 @@ void prepare_folder(const fs::path& out, const io::Dataset& dataset, const Norma
   std::error_code ignored;
   for (const io::FrameEntry& frame : dataset.frames) {
     if (fs::equivalent(out, folder_of(frame.image), ignored))
-      throw Error("--out " + out.string() + ": the images themselves are there; choose another folder");
+      throw Error("--out " + out.string() + ": contains the images themselves; choose another folder");
   }
   io::prepare_output_folder(out);
   write_normal_encoding(out, manifest.plane_sigma_deg);
@@ -74,7 +74,7 @@ class NormalWriter {
   // written.
   [[nodiscard]] bool write(cv::Mat image, const std::string& stem, std::string& why) {
     if (!stems_.insert(stem).second) {
-      why = "another image of this name came before";
+      why = "an earlier image has the same name";
       return false;
     }
     const Camera<double> camera = camera_.of(image);
@@ -161,7 +161,7 @@ void run_normals(const NormalsSettings& settings) {
   if (none && !interrupted) throw Error(settings.images + ": no image gave normals");
   print_summary(writer, manifest.model, settings.out, dataset.frames.size());
   if (interrupted) {
-    print_warning("interrupted; what had been computed was written");
+    print_warning("interrupted; the results until then were written");
     throw Stop{ExitCode::kInterrupted};
   }
 }

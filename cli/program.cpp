@@ -40,7 +40,7 @@ namespace {
 
 constexpr const char* kFooter =
     "Exit codes: 0 success; 1 bad input, unwritable output or no result; 2 wrong command line; "
-    "130 interrupted, with what had been computed written.";
+    "130 interrupted; the results until then were written.";
 
 // What is typed and what comes of it, for --help.
 struct Example {
@@ -222,7 +222,7 @@ int sslam::run_program(int argc, char** argv) {
     print_error(error.what());
     return static_cast<int>(ExitCode::kUsage);
   } catch (const cv::Exception& error) {  // its what() has several lines, and places in OpenCV's sources
-    print_error("OpenCV could not do what it was asked to: " + error.err + " (in " + error.func + ")");
+    print_error("OpenCV failed: " + error.err + " (in " + error.func + ")");
   } catch (const std::bad_alloc&) {
     print_error("not enough memory; take smaller images or fewer frames, or raise the limit (ulimit -v)");
   } catch (const std::exception& error) {

@@ -180,7 +180,7 @@ RunSettings resumed_settings(const std::string& folder) {
     command.parse(std::vector<std::string>(settings.words.rbegin(), settings.words.rend()));
   } catch (const CLI::Error& error) {
     throw Error("--resume " + folder +
-                ": the options of the run that stopped no longer hold: " + error.what());
+                ": the options of the run that stopped are no longer valid: " + error.what());
   }
   settings.out = folder;
   settings.resumed = std::move(checkpoint);
@@ -195,7 +195,7 @@ void run_as_given(const CLI::App& command, const RunSettings& given, const std::
     return run(std::move(settings));
   }
   for (const CLI::Option* other : given_options(command, kBesideResume))
-    throw UsageError("--resume goes on with dataset and options of the run that stopped: leave " +
+    throw UsageError("--resume continues with the dataset and options of the run that stopped: leave " +
                      (other->get_positional() ? "" : std::string("--")) + name_of(*other) + " out");
   RunSettings settings = resumed_settings(resume);
   settings.verbosity = given.verbosity;

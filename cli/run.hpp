@@ -22,8 +22,8 @@ namespace sslam::cli {
 // What --normals takes.
 inline constexpr const char* kNormalsMeaning =
     "Surface normals: none (lines alone), depth, files:DIR, onnx (the network that comes with sslam) or "
-    "onnx:FILE, for every frame; on-demand (that network) or on-demand:SOURCE, only where a frame's lines "
-    "leave its rotation open; default on-demand if that network is installed, else none; none for presets "
+    "onnx:FILE, for every frame; on-demand (that network) or on-demand:SOURCE, only where a frame's lines do "
+    "not determine its rotation; default on-demand if that network is installed, else none; none for presets "
     "without a Manhattan world";
 
 // What becomes of the calibration.

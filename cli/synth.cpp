@@ -124,11 +124,10 @@ SynthReport synthesise(const SynthSettings& asked) {
       settings.height};
   const synth::LensGrid lens(camera);
   if (!lens.usable()) {
-    throw Error(
-        "--lens " + lens_text(camera.distortion) +
-        ": the distortion turns back within the image, or nearly; expected a weaker one, or a --focal "
-        "longer than " +
-        std::to_string(std::lround(settings.focal)));
+    throw Error("--lens " + lens_text(camera.distortion) +
+                ": the distortion folds the image back, or nearly; expected a weaker one, or a --focal "
+                "longer than " +
+                std::to_string(std::lround(settings.focal)));
   }
   claim_synth_folder(asked.folder);
   const FolderLock lock = FolderLock::demand(asked.folder);

@@ -81,8 +81,7 @@ void view(const std::string& path, int port) {
 
 void add_view_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "view",
-      "Show a run or a map in a browser on this machine; `sslam run --view` shows a run while it goes on");
+      "view", "Show a run or a map in a browser on this machine; `sslam run --view` shows a run in progress");
   struct Settings {
     std::string path;
     int port = 0;

@@ -21,7 +21,7 @@ void refuse_foreign(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored) || fs::is_empty(folder, ignored)) return;
   if (fs::exists(folder / kPlanFile, ignored) || fs::exists(folder / kLockFile, ignored)) return;
-  throw Error(folder.string() + ": holds something that sslam batch has not written; choose an empty folder");
+  throw Error(folder.string() + ": holds files that sslam batch did not write; choose an empty folder");
 }
 
 void write_facts(const fs::path& folder, const SuiteSequence& sequence, const SequenceFacts& facts) {
@@ -63,7 +63,7 @@ BatchFolder::BatchFolder(fs::path folder) : folder_(std::move(folder)) {
   if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(lock_);
     throw Error(folder_.string() +
-                ": another sslam batch is at work there; wait for it, or name another --out");
+                ": another sslam batch is writing there; wait for it, or choose another --out");
   }
 }
 

@@ -148,7 +148,7 @@ Plan read_plan(const fs::path& folder) {
   try {
     return plan_from(read_json_object(file));
   } catch (const std::exception&) {
-    throw Error(file.string() + ": is damaged; run the batch again, it keeps the runs that are done");
+    throw Error(file.string() + ": is damaged; run the batch again: it keeps finished runs");
   }
 }
 

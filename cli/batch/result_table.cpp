@@ -178,7 +178,7 @@ ResultPage make_page(const Results& results) {
       "leaving out hard frames.";
   ResultTable& rates = page.tables[2];
   rates.caption =
-      "Rotation error (RMSE, degrees) after the constant turn that suits it best, and frames a second; "
+      "Rotation error (RMSE, degrees) after the best constant rotation, and frames per second; "
       "medians over the runs that were not lost.";
   rates.text = rate_text;
   for (std::vector<TableCell>& row : rates.rows)

@@ -35,7 +35,7 @@ class Batch {
       if (settings.shard.holds(i)) sort_in(plan.runs[i]);
     total_ = waiting_.size();
     if (rebuilt_ > 0)
-      print_note(std::to_string(rebuilt_) + " runs were made by another build of sslam and are made again");
+      print_note(std::to_string(rebuilt_) + " runs were made by another build of sslam and are repeated");
     jobs_ = static_cast<std::size_t>(settings.jobs > 0 ? settings.jobs
                                                        : static_cast<int>(allowed_cores().size()));
   }

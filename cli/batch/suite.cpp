@@ -92,7 +92,7 @@ class SuiteReader {
     std::vector<std::int64_t> starts = table.whole_numbers("starts", 0);
     std::sort(starts.begin(), starts.end());
     if (const auto twice = std::adjacent_find(starts.begin(), starts.end()); twice != starts.end())
-      table.fail("starts", std::to_string(*twice) + " stands there twice");
+      table.fail("starts", std::to_string(*twice) + " appears twice");
     return starts;
   }
 
@@ -144,8 +144,8 @@ class SuiteReader {
         for (auto first = list.begin(); first != second; ++first)
           if (io::lower_case(folder_name(first->name)) == io::lower_case(folder_name(second->name)))
             throw Error(at_line(file_, second->line) + "name in " + what + ": '" + second->name +
-                        "' is there already, in line " + std::to_string(first->line) +
-                        "; give each a name of its own");
+                        "' is already used in line " + std::to_string(first->line) +
+                        "; give each a different name");
     };
     check(suite_.sequences, "[[sequence]]");
     check(suite_.methods, "[[method]]");

@@ -70,7 +70,7 @@ class SuiteCheck {
         throw Error(sequence.truth.string() + ": no pose at the time of the images of " + sequence.dataset);
     });
     if (facts.truth.empty())
-      print_note(sequence.name + ": no ground truth, so the tables show the share tracked alone");
+      print_note(sequence.name + ": no ground truth, so the tables show only the share tracked");
     for (const SuiteMethod& method : suite_.methods) check_method(sequence, method, dataset, camera);
     return facts;
   }

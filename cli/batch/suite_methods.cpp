@@ -82,7 +82,7 @@ MethodDefaults read_defaults(SuiteTable& table, const MethodDefaults& otherwise)
   if (!seeds.empty()) read.seeds.assign(seeds.begin(), seeds.end());
   for (auto seed = read.seeds.begin(); seed != read.seeds.end(); ++seed)
     if (std::find(read.seeds.begin(), seed, *seed) != seed)
-      table.fail("seeds", std::to_string(*seed) + " stands there twice");
+      table.fail("seeds", std::to_string(*seed) + " appears twice");
   return read;
 }
 

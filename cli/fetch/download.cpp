@@ -105,9 +105,8 @@ void download(const std::string& address, const fs::path& file, Verbosity verbos
     const auto received = fs::file_size(part, ignored);
     if (received == 0) fs::remove(part, ignored);
     throw Error(address + ": " + message +
-                (received > 0
-                     ? "; the same command goes on behind what has been received"
-                     : "; is there a network, and is this still the address? --mirror names another"));
+                (received > 0 ? "; the same command continues the download"
+                              : "; check the network and the address; --mirror gives another address"));
   }
   fs::rename(part, file);
 }

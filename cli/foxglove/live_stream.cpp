@@ -46,7 +46,7 @@ LiveStream::LiveStream(const Endpoint& endpoint, const io::Dataset& dataset)
     : seconds_per_stamp_(checked_seconds_per_stamp(dataset)),
       server_(endpoint, channels(), [this] { return take(); }) {
   if (!dataset.frames.empty()) now_ = io::message_time(dataset.frames.front().stamp * seconds_per_stamp_);
-  print_note("Foxglove finds the run at " + server_.address());
+  print_note("open this address in Foxglove: " + server_.address());
 }
 
 void LiveStream::begin(const Camera<double>& camera, const FeatureColours& colours) {

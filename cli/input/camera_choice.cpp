@@ -95,7 +95,7 @@ CameraChoice camera_from_file(const std::filesystem::path& path) {
     io::add_to_list(names, camera.name);
   }
   throw Error(file + ": has no camera '" + name + "'; " +
-              (names.empty() ? "it has one alone: leave '#" + name + "' out" : "it has " + names));
+              (names.empty() ? "it has only one camera: leave '#" + name + "' out" : "it has " + names));
 }
 
 std::optional<CameraChoice> find_camera(const std::string& wanted, const io::Dataset& dataset) {

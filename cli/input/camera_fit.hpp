@@ -36,7 +36,7 @@ inline void fit_camera(Camera<double>& camera, int width, int height, const std:
       throw Error(both +
                   ": they are turned by 90 degrees; turn them back, or calibrate the camera as it is held");
     } else {
-      throw Error(both + ": another shape; expected a calibration of images of this size");
+      throw Error(both + ": another aspect ratio; expected a calibration of images of this size");
     }
   }
   const CameraCheck check = check_camera(camera);

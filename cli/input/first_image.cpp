@@ -81,7 +81,7 @@ void tell_range(const io::Dataset& dataset, cv::Size camera) {
   (void)reader.read(dataset.frames.front(), ignored);
   if (reader.range())
     print_note(dataset.frames.front().image + ": 16 bit images: values from " + reader.range()->text() +
-               ", found in the first frames, become black to white");
+               ", found in the first frames, are scaled to 8 bit");
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ CameraChoice camera_for_images(const CameraWish& wish, const io::Dataset& datase
   const cv::Size images = turned_size(first.stored, used);
   CameraChoice choice = choose_camera(wish, dataset, images.width, images.height);
   if (first.several)
-    print_note(first.name + ": holds several images; of a file in a folder one is taken; " + kTakeApart);
+    print_note(first.name + ": holds several images; only one of them is used; " + kTakeApart);
   tell_turn(first, used);
   tell_range(dataset, images);
   return choice;

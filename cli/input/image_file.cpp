@@ -29,7 +29,7 @@ bool check_image(const fs::path& name, const std::vector<std::uint8_t>& bytes, I
   }
   if (is_too_large(header, expected)) {
     why = name.string() + ": claims " + size_text(header.size) + " pixels, more than " +
-          std::to_string(kMostPixels / 1'000'000) + " million; a camera file with this size lets it in";
+          std::to_string(kMostPixels / 1'000'000) + " million; give a camera file with this size to allow it";
     return false;
   }
   return true;
@@ -74,7 +74,7 @@ cv::Mat decode_image(const fs::path& path, const std::vector<std::uint8_t>& byte
   if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kPointer))
     why += ": it is a pointer of Git LFS; `git lfs pull` fetches the image";
   if (header.format == ImageFormat::kHeif) why += ": it is HEIC or AVIF; convert it to JPEG or PNG";
-  if (header.several) why += std::string(": it holds several; ") + kTakeApart;
+  if (header.several) why += std::string(": it holds several images; ") + kTakeApart;
   return image;
 }
 
@@ -104,9 +104,9 @@ void tell_of_pixels(io::Dataset& dataset, const VideoInfo& info) {
                 info.odd_turn);
   if (info.odd_turn != 0) dataset.warnings.push_back(file + text);
   if (info.interlaced)
-    dataset.warnings.push_back(file +
-                               ": is interlaced, every other row is of another moment; `ffmpeg -i IN "
-                               "-vf yadif OUT` mends that");
+    dataset.warnings.push_back(
+        file +
+        ": is interlaced: every other row shows another moment; `ffmpeg -i IN -vf yadif OUT` fixes that");
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ void list_video_frames(io::Dataset& dataset, std::int64_t at_most) {
   tell_of_pixels(dataset, info);
   if (found.whole && found.frames < info.claimed)
     dataset.warnings.push_back(dataset.root.string() + ": claims " + std::to_string(info.claimed) +
-                               " frames; " + std::to_string(found.frames) + " are there");
+                               " frames, but has " + std::to_string(found.frames));
 }
 
 }  // namespace sslam::cli

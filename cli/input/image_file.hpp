@@ -31,8 +31,7 @@ namespace sslam::cli {
                               ImageHeader& header, std::string& why, cv::Size expected = {});
 
 // What to do with a file that holds several images and is no video.
-inline constexpr const char* kTakeApart =
-    "`convert FILE -coalesce FOLDER/%06d.png` of ImageMagick takes them apart";
+inline constexpr const char* kTakeApart = "`convert FILE -coalesce FOLDER/%06d.png` of ImageMagick splits it";
 
 // flags as cv::imread takes them; the pixels stay as they are stored. Empty, with the reason in `why`, when
 // the file is missing, truncated or no image.

@@ -98,7 +98,8 @@ MaskSource::Mask MaskSource::load(const std::filesystem::path& file, std::string
   if (stored.size() != size_) {
     problem = "the mask has " + size_text(stored.size()) + " pixels, and the images " + size_text(size_);
   } else if (stored.channels() == kWithAlpha) {
-    problem = std::string("the mask has transparency, which may mean either; store it without: ") + kMeaning;
+    problem =
+        std::string("the mask has transparency, whose meaning is not defined; store it without: ") + kMeaning;
   } else {
     mask.jpeg = header.format == ImageFormat::kJpeg;
     mask.used = mask.jpeg ? bright(stored, problem) : not_black(stored);

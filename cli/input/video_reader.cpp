@@ -112,7 +112,7 @@ VideoReader::VideoReader(const std::filesystem::path& file) : parts_(std::make_u
   p.codec->max_pixels = kMostPixels;
   p.codec->pkt_timebase = stream.time_base;
   if (avcodec_open2(p.codec.get(), p.container.decoder, nullptr) < 0)
-    throw Error(file.string() + ": cannot open this video: its decoder does not take it");
+    throw Error(file.string() + ": cannot open this video: its decoder refuses it");
   p.info.size = {stream.codecpar->width, stream.codecpar->height};
   read_turn(stream, p.info);
   p.info.claimed = stream.nb_frames;

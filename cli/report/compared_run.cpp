@@ -76,7 +76,7 @@ void demand_same_dataset(const ComparedRun& a, const ComparedRun& b) {
     throw Error(b.folder.string() + ": " + why + "; runs of one dataset can be compared");
   };
   if (!a.run.truth.empty() && !b.run.truth.empty()) {
-    if (!agree(a.run.truth, b.run.truth)) refuse("has another ground truth than " + a.folder.string());
+    if (!agree(a.run.truth, b.run.truth)) refuse("has a different ground truth from " + a.folder.string());
   } else if (!of_a.empty() && !of_b.empty() && last_name(of_a) != last_name(of_b)) {
     refuse("is a run of " + of_b + ", " + a.folder.string() + " is one of " + of_a);
   }

@@ -56,7 +56,7 @@ inline constexpr int kLevels = 24, kTall = 8;
       planes.push_back({{n[0], n[1], n[2]}, plane.at("distance").get<double>()});
     }
   } catch (const nlohmann::json::exception&) {
-    throw Error("metrics.json: does not tell the planes of --dense (dense: planes)");
+    throw Error("metrics.json: lacks the planes of --dense (dense: planes)");
   }
   return planes;
 }

@@ -26,7 +26,7 @@ FolderLock FolderLock::demand(const std::filesystem::path& folder) {
   if (!lock)
     throw Error(
         folder.string() +
-        ": another sslam is writing its results into this folder; wait for its end, or choose another "
+        ": another sslam is writing its results into this folder; wait until it ends, or choose another "
         "folder with --out");
   return std::move(*lock);
 }

@@ -20,7 +20,7 @@ namespace sslam::cli {
     return true;
   };
   Json json = Json::parse(io::read_text(path), check, false);
-  if (!json.is_object()) throw Error(path.string() + ": is no JSON object; cut off?");
+  if (!json.is_object()) throw Error(path.string() + ": is no JSON object; truncated?");
   return json;
 }
 

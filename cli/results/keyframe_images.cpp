@@ -72,7 +72,7 @@ KeyframeImages keyframe_images(const RunFolder& run) {
                               "keyframe_NUMBER.png");
   if (blanks > 0)
     images.warnings.push_back(std::to_string(blanks) +
-                              " names of images hold a blank, at which COLMAP cuts them off");
+                              " names of images contain a blank, where COLMAP truncates them");
   return images;
 }
 

@@ -20,8 +20,7 @@ namespace sslam::cli {
     const auto size = settings.at("image_size").get<std::array<int, 2>>();
     return {{p[0], p[1], p[2], p[3]}, {lens[0], lens[1], lens[2], lens[3], lens[4]}, size[0], size[1]};
   } catch (const nlohmann::json::exception&) {
-    throw Error(
-        "metrics.json: does not tell the camera of the run (settings: pinhole, distortion, image_size)");
+    throw Error("metrics.json: lacks the camera of the run (settings: pinhole, distortion, image_size)");
   }
 }
 

@@ -50,7 +50,7 @@ void print_run_summary(const RunContext& context, const RunOutcome& outcome,
   if (const int uncertain = metrics["states"]["uncertain"].get<int>(); uncertain > 0)
     std::printf("uncertain        %d of these poses: none of their frames is in the map\n", uncertain);
   if (const int bridged = metrics["bridged"].get<int>(); bridged > 0)
-    std::printf("bridged          %d of these poses: turn measured, place interpolated\n", bridged);
+    std::printf("bridged          %d of these poses: rotation measured, position interpolated\n", bridged);
   if (outcome.frames_dropped > 0)
     std::printf("dropped          %zu frames that arrived while the tracker was busy\n",
                 outcome.frames_dropped);

@@ -36,7 +36,7 @@ struct ExportedRun {
     of.dataset = settings.at("dataset").get<std::string>();
     of.topic = settings.value("topic", std::string());
   } catch (const nlohmann::json::exception&) {
-    throw Error("metrics.json: does not tell the dataset of the run (settings)");
+    throw Error("metrics.json: lacks the dataset of the run (settings)");
   }
   of.camera = camera_of(run);
   return of;

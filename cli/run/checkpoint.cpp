@@ -68,12 +68,12 @@ void check_resumed(const Checkpoint& checkpoint, const io::Dataset& dataset, con
   const CheckpointHead now = begun_checkpoint({}, dataset, camera);
   const std::string begin = "--resume " + folder.string() + ": ";
   if (now.frames != checkpoint.frames || now.frame_list != checkpoint.frame_list)
-    throw Error(begin + "the dataset is another one by now: " + dataset.root.string() + " had " +
+    throw Error(begin + "the dataset has changed: " + dataset.root.string() + " had " +
                 std::to_string(checkpoint.frames) + " frames and has " + std::to_string(now.frames) +
                 (now.frames == checkpoint.frames ? ", with other names or stamps" : "") +
                 "; run it from the beginning");
   if (!same_camera(camera, checkpoint.given))
-    throw Error(begin + "the calibration is another one than when the run began; run it from the beginning");
+    throw Error(begin + "the calibration has changed since the run began; run it from the beginning");
 }
 
 void write_checkpoint(const fs::path& folder, const CheckpointHead& head, const RunOutcome& outcome,
@@ -98,7 +98,7 @@ Checkpoint read_checkpoint(const fs::path& folder) {
     std::error_code ignored;
     throw Error(
         "--resume " + folder.string() + ": holds no checkpoint of a run that stopped" +
-        (fs::exists(folder / "metrics.json", ignored) ? "; the results of one that ended are there" : ""));
+        (fs::exists(folder / "metrics.json", ignored) ? "; it holds the results of a finished run" : ""));
   }
   const fs::path file = folder / kCheckpointFile;
   const std::string bytes = io::read_sealed(file, kCheckpoint);

@@ -129,7 +129,7 @@ void scale_by_distance(const ScaleWish& wish, const RunOutcome& outcome, const S
   const double apart = (b - a).norm();
   if (!(apart > kFarEnough * (high - low).norm())) {
     scale.problem = std::string(wish.first ? "the two frames" : "the first and the last frame with a pose") +
-                    " stand at nearly the same place; name two that do not, as known=METRES@FRAME:FRAME";
+                    " are at nearly the same place; choose two others, as known=METRES@FRAME:FRAME";
     return;
   }
   scale.factor = wish.metres / apart;

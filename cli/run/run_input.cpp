@@ -23,7 +23,7 @@ void warn_of_useless_normals(const std::string& source, RunOutcome& outcome) {
   }
   if (any || asked < kEnough) return;
   outcome.warnings.push_back("--normals " + source + ": not one of " + std::to_string(asked) +
-                             " frames has normals that are of use; sslam normals shows what a network sees");
+                             " frames has usable normals; `sslam normals` shows the output of a network");
 }
 
 void note_stream(const LiveSource& source, RunOutcome& outcome) {

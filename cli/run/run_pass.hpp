@@ -64,7 +64,7 @@ class RunPass {
   void go_on_from(Checkpoint checkpoint) {
     const std::vector<io::FrameEntry>& frames = context.dataset.frames;
     first_ = checkpoint.next;
-    print_note("going on at frame " + std::to_string(first_ + 1) + " of " + std::to_string(frames.size()) +
+    print_note("continuing at frame " + std::to_string(first_ + 1) + " of " + std::to_string(frames.size()) +
                ", from the checkpoint in " + context.settings.out);
     known_keyframes_ = checkpoint.known_keyframes;
     recorder.outcome = std::move(checkpoint.outcome);

@@ -107,8 +107,8 @@ void SelfCalibration::find(Settings settings, CameraChoice& camera, const std::s
   const CameraFinding found = find_camera_by_tracking(dataset_, settings, masks_, prior_);
   if (found.verdict == CameraVerdict::kOpen && !contradicts()) {
     if (!Interrupt::asked())
-      warnings_.push_back("the images leave the camera open (does it only move straight on?): " + source_ +
-                          " stands");
+      warnings_.push_back("the images do not determine the camera (does it only move straight ahead?): " +
+                          source_ + " is kept");
     return;
   }
   camera.camera = found.verdict == CameraVerdict::kOpen ? record_.last.camera : found.camera;
@@ -151,7 +151,7 @@ void SelfCalibration::go_on(const CheckpointHead& head, CameraChoice& camera) {
 
 std::string SelfCalibration::advice(const std::string& where) const {
   return source_ + ": the images contradict this calibration (" + camera_text(record_.given) +
-         "); their own is " + camera_text(record_.last.camera) + "; track them again with --camera " + where;
+         "); they fit " + camera_text(record_.last.camera) + "; track them again with --camera " + where;
 }
 
 }  // namespace sslam::cli

@@ -185,8 +185,8 @@ void WholeRun::write() {
   if (pass_->video) pass_->video->commit();
   if (interrupted || Interrupt::asked()) {
     const bool resumable = has_checkpoint(settings_.out);
-    print_warning("interrupted; what had been computed was written" +
-                  (resumable ? "; sslam run --resume " + settings_.out + " goes on from here" : ""));
+    print_warning("interrupted; the results until then were written" +
+                  (resumable ? "; sslam run --resume " + settings_.out + " continues it" : ""));
     throw Stop{ExitCode::kInterrupted};
   }
   if (!tracked) print_error(settings_.dataset + ": no frame was tracked; last reason: " + last_reason);

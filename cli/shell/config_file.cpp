@@ -103,7 +103,7 @@ class ConfigReader {
     if (key == "set" && table == nullptr)
       refuse(key, node, "a table: [set] with rows such as keyframes.max_turn = 10");
     if (key == "set" && option != nullptr) return apply_parameters(*option, *table, {});
-    if (key == "config") throw Error(at(line) + "config: a file of options names no other one");
+    if (key == "config") throw Error(at(line) + "config: a file of options cannot name another one");
     if (option == nullptr || key == "help") refuse_unknown(key, line, table != nullptr);
     const Wanted wanted = wanted_by(*option);
     const bool several = option->get_items_expected_max() > 1;

@@ -103,7 +103,7 @@ void AvStream::Parts::open(const std::string& url, AVDictionary* options) {
     opened->flags |= AVFMT_FLAG_CUSTOM_IO;
   }
   if (bytes == nullptr && url.starts_with("file:"))
-    throw Error(name + ": is a file of this machine; name it without file://");
+    throw Error(name + ": is a file on this machine; give its path without file://");
   std::string said;
   const ffmpeg::Listener listener(said);
   const auto fail = [&](int why) {
@@ -134,7 +134,7 @@ void AvStream::Parts::open_codec(const AVCodec* decoder) {
   codec->max_pixels = kMostPixels;
   codec->pkt_timebase = stream->time_base;
   if (avcodec_open2(codec.get(), decoder, nullptr) < 0)
-    throw Error(name + ": the decoder does not take this video");
+    throw Error(name + ": the decoder refuses this video");
 }
 
 bool AvStream::Parts::next_packet() {
@@ -148,10 +148,9 @@ bool AvStream::Parts::next_packet() {
   if (ended == AVERROR_EOF && format->pb != nullptr && format->pb->error < 0) ended = format->pb->error;
   if (!given && !patience.over() &&
       std::string_view(format->iformat->name).find("mp4") != std::string_view::npos)
-    throw Error(
-        name +
-        ": this MP4 has its index behind the pictures, and cannot be read in one go; write it with ffmpeg "
-        "-movflags +faststart");
+    throw Error(name +
+                ": this MP4 has its index after the pictures, so it cannot be streamed; write it with ffmpeg "
+                "-movflags +faststart");
   return false;
 }
 

@@ -67,7 +67,7 @@ void LiveFeed::run() {
     if (flow_ == StreamFlow::kFile && !trouble.empty()) {
       const std::lock_guard lock(mutex_);
       figures_.end = shown_ + ": the video broke off after frame " + std::to_string(number_ - 1) + why +
-                     "; what follows is missing";
+                     "; the rest is missing";
     }
     if (flow_ != StreamFlow::kRuns) return;
     reader = come_back(patience, why);

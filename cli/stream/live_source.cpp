@@ -45,7 +45,7 @@ cv::Size LiveSource::wait_for_first() {
       print_note(feed_->shown() + ": waiting for the first frame");
     }
     if (!take(frame)) {
-      if (!why.empty()) throw Error(why + "; no other image came");
+      if (!why.empty()) throw Error(why + "; no other image arrived");
       throw Error(feed_->shown() + ": ended before the first image");
     }
     if (!frame.image.empty()) break;
@@ -54,7 +54,7 @@ cv::Size LiveSource::wait_for_first() {
   const cv::Size size = frame.image.size();
   if (range_)
     print_note(feed_->shown() + ": 16 bit images: values from " + range_->text() +
-               ", found in the first frame, become black to white");
+               ", found in the first frame, are scaled to 8 bit");
   first_ = std::move(frame);
   return size;
 }

@@ -36,7 +36,7 @@ const char* extension_of(ImageFormat format) {
 Recording::Recording(fs::path folder) : folder_(std::move(folder)) {
   std::error_code ignored;
   if (fs::exists(folder_, ignored) && !(fs::is_directory(folder_, ignored) && fs::is_empty(folder_, ignored)))
-    throw Error("--record " + folder_.string() + ": is there already; name a new folder");
+    throw Error("--record " + folder_.string() + ": already exists; choose a new folder");
   io::prepare_output_folder(folder_ / "rgb");
   list_.open(folder_ / "rgb.txt", std::ios::binary | std::ios::trunc);
   list_ << "# recorded by sslam run --record: stamp in seconds, image\n" << std::flush;

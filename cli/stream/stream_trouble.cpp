@@ -99,7 +99,7 @@ std::string trouble_at_opening(int code, const std::string& url, const std::stri
            : code == AVERROR_EXIT                        ? "does not answer"
                                                          : "cannot be opened: " + code_text(code);
   if (host_of(url).empty())
-    return "names no host; expected such as http://HOST:PORT/PATH or rtsp://HOST/PATH";
+    return "has no host; expected an address such as http://HOST:PORT/PATH or rtsp://HOST/PATH";
   if (contains(said, "not on whitelist") || code == AVERROR_PROTOCOL_NOT_FOUND) return unknown_scheme(url);
   if (const std::string_view mark = "Failed to resolve hostname "; contains(said, mark)) {
     const std::string line = first_line(said.substr(said.find(mark) + mark.size()));
@@ -129,14 +129,14 @@ std::string trouble_at_opening(int code, const std::string& url, const std::stri
     case AVERROR_HTTP_FORBIDDEN:
       return "the server does not allow this (403 Forbidden)";
     case AVERROR_HTTP_NOT_FOUND:
-      return "the server has nothing there (404 Not Found); is what stands behind the host right?";
+      return "the server has nothing there (404 Not Found); is the path after the host right?";
     case AVERROR_HTTP_BAD_REQUEST:
     case AVERROR_HTTP_OTHER_4XX:
       return "the server refuses the request (" + code_text(code) + ")";
     case AVERROR_HTTP_SERVER_ERROR:
       return "the server has failed (" + code_text(code) + "); the camera itself may be off";
     case AVERROR(EINVAL):
-      return "is no address of a stream; expected such as http://HOST:PORT/PATH or rtsp://HOST/PATH";
+      return "is no address of a stream; expected one such as http://HOST:PORT/PATH or rtsp://HOST/PATH";
     default:
       break;
   }
@@ -153,7 +153,7 @@ std::string trouble_at_opening(int code, const std::string& url, const std::stri
 }
 
 std::string trouble_while_reading(int code, bool over) {
-  if (over) return "nothing came any more";
+  if (over) return "no more data arrived";
   if (code >= 0 || code == AVERROR_EOF) return {};
   if (code == AVERROR(EIO) || code == AVERROR(ECONNRESET) || code == AVERROR(EPIPE))
     return "the connection ended";

@@ -41,7 +41,7 @@ double largest_error(std::string_view name) {
 }  // namespace
 
 std::string parse_camera_error(const std::string& text, CameraError& error) {
-  const std::string example = "expected such as focal=0.05,k1=0.1, of focal, cx, cy, k1, k2, p1, p2";
+  const std::string example = "expected errors such as focal=0.05,k1=0.1, of focal, cx, cy, k1, k2, p1, p2";
   CameraError parsed;
   for (const std::string& part : comma_parts(text)) {
     const std::size_t equals = part.find('=');

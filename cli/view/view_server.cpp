@@ -104,10 +104,10 @@ void ViewServer::answer(const httplib::Request& request, httplib::Response& resp
                       ":127.0.0.1:" + std::to_string(port_) + " MACHINE");
   const auto slash = request.path.find('/', 1);
   if (!request.path.starts_with('/') || !same_text(request.path.substr(1, slash - 1), token_))
-    return refuse(response, 403, "Take the whole address that sslam has printed.");
+    return refuse(response, 403, "Use the whole address that sslam printed.");
   if (request.method != "GET") {
     response.set_header("Allow", "GET");
-    return refuse(response, 405, "There is nothing here but pages to look at.");
+    return refuse(response, 405, "This server only answers GET requests.");
   }
   if (slash == std::string::npos) return response.set_redirect(request.path + "/");
   const std::string name = request.path.substr(slash + 1);

@@ -126,13 +126,13 @@ TEST_CASE("an animated PNG is a video with its own times, whatever its name ends
   }
 }
 
-TEST_CASE("an animated WebP and pages of a TIFF are refused, with what takes them apart") {
+TEST_CASE("an animated WebP and pages of a TIFF are refused, with what splits them") {
   const testing::ScratchFolder scratch;
   for (const auto& path : {scratch.write("walk.webp", animated_webp()), write_pages(scratch)}) {
     const std::string text = error_of([&] { (void)cli::open_frames(path); });
     CHECK(text == path.string() +
                       ": holds several images, which are not read as a video; `convert FILE -coalesce "
-                      "FOLDER/%06d.png` of ImageMagick takes them apart");
+                      "FOLDER/%06d.png` of ImageMagick splits it");
   }
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("an animated WebP among images says why it cannot be decoded") {
   std::string why;
   const cv::Mat image = cli::load_image(scratch.write("walk.webp", animated_webp()), cv::IMREAD_COLOR, why);
   if (image.empty())  // later versions of OpenCV give the first
-    CHECK(contains(why, "walk.webp: cannot decode this image: it holds several; `convert FILE"));
+    CHECK(contains(why, "walk.webp: cannot decode this image: it holds several images; `convert FILE"));
 }
 
 TEST_CASE("a preview beside the image of a TIFF is no second page") {

@@ -38,7 +38,7 @@ class Resuming(BatchCase):
         after = marks(out)
         self.assertEqual(len(after), 8)
         self.assertEqual({run: after[run] for run in before}, before)
-        self.assertIn(f"{len(before)} runs were done before and are kept", done.stderr)
+        self.assertIn(f"{len(before)} runs were already finished and are kept", done.stderr)
         self.batch(suite, "--out", whole)
         self.assertEqual((out / "table.csv").read_text(), (whole / "table.csv").read_text())
 
@@ -71,7 +71,7 @@ class Resuming(BatchCase):
             batch.send_signal(signal.SIGINT)
             said = batch.communicate()
         self.assertEqual(batch.returncode, 130, said)
-        self.assertIn("interrupted; the runs that are done are kept", said[1])
+        self.assertIn("interrupted; finished runs are kept", said[1])
         self.assertIn("Not done yet: ", said[0])
         before = marks(out)
         self.batch(suite, "--out", out)
@@ -85,4 +85,4 @@ class Resuming(BatchCase):
                 time.sleep(0.002)
             second = self.batch(suite, "--out", out, code=1)
             batch.terminate()
-        self.assertIn("another sslam batch is at work there", second.stderr)
+        self.assertIn("another sslam batch is writing there", second.stderr)

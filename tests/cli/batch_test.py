@@ -146,7 +146,7 @@ class Tables(BatchCase):
 
     def test_an_earlier_batch_stands_beside(self):
         again = self.batch(self.folder / "suite.toml", "--out", self.out, "--against", self.out)
-        self.assertIn("8 runs were done before and are kept", again.stderr)
+        self.assertIn("8 runs were already finished and are kept", again.stderr)
         self.assertIn("structure, none (out)", again.stdout)
         self.batch(self.folder / "suite.toml", "--out", self.out)
 

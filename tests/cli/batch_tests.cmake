@@ -34,7 +34,7 @@ sslam_suite_refuses("a missing camera" "line 2: ..sequence..: [^\n]*none.yaml: n
 sslam_suite_refuses("a flawed ground truth" "line 2: ..sequence..: [^\n]*flawed.txt: line 1: has 3 columns"
                     "${sequence}truth = \"flawed.txt\"\n")
 sslam_suite_refuses("a start after the end" "line 2: ..sequence..: [^\n]*no frame from 7 up to 1" "${sequence}start = 7\n")
-sslam_suite_refuses("two of one name" "line 4: name in ..sequence..: 'images' is there already, in line 2" "${sequence}${sequence}")
+sslam_suite_refuses("two of one name" "line 4: name in ..sequence..: 'images' is already used in line 2" "${sequence}${sequence}")
 sslam_suite_refuses("an unknown preset" "line 4: ..method..: --preset papers: no such preset. use one of structure, paper"
                     "${sequence}[[method]]\npreset = \"papers\"\n")
 sslam_suite_refuses("an unknown parameter" "line 4: ..method..: --set keyframes.min_gab: no such parameter"
@@ -45,7 +45,7 @@ sslam_suite_refuses("unknown normals" "line 4: ..method..: --normals dpeth: not 
 sslam_suite_refuses("depth that is not there" "line 4: ..method..: --normals depth: [^\n]* has no depth images"
                     "${sequence}[[method]]\nnormals = \"depth\"\n")
 sslam_suite_refuses("a negative seed" "line 1: seeds in the suite: expected a whole number from 0 on" "seeds = [1, -2]\n${sequence}")
-sslam_suite_refuses("a seed twice" "line 1: seeds in the suite: 1 stands there twice" "seeds = [1, 1]\n${sequence}")
+sslam_suite_refuses("a seed twice" "line 1: seeds in the suite: 1 appears twice" "seeds = [1, 1]\n${sequence}")
 sslam_suite_refuses("a share above one" "line 1: min_tracked in the suite: is out of range" "min_tracked = 50\n${sequence}")
 sslam_suite_refuses("a reference to another sequence" "line 5: 'image' is not a key of trajectories of ..reference... did you mean 'images'"
                     "${sequence}[[reference]]\nname = \"ORB\"\ntrajectories = {image = \"flawed.txt\"}\n")
@@ -65,7 +65,7 @@ sslam_suite_refuses("a missing mask" "line 2: ..sequence..: [^\n]*none.png" "${s
 sslam_suite_refuses("two masks" "line 3: mask in ..sequence..: expected one value" "${sequence}mask = [\"a.png\", \"b.png\"]\n")
 sslam_suite_refuses("a scale of no depth" "line 2: ..sequence..: --scale depth: " "${sequence}scale = \"depth\"\n")
 sslam_suite_refuses("a start and starts" "line 4: starts in ..sequence..: there is a start as well" "${sequence}start = 1\nstarts = [0]\n")
-sslam_suite_refuses("a start twice" "line 1: starts in the suite: 0 stands there twice" "starts = [0, 0]\n${sequence}")
+sslam_suite_refuses("a start twice" "line 1: starts in the suite: 0 appears twice" "starts = [0, 0]\n${sequence}")
 sslam_suite_refuses("a start behind the end" "line 2: ..sequence..: [^\n]*no frame from 7 up to 1" "${sequence}starts = [0, 7]\n")
 sslam_suite_refuses("an unknown calibration" "line 4: calibration in ..method..: --calibration: 'fix' is not one of"
                     "${sequence}[[method]]\ncalibration = [\"fixed\", \"fix\"]\n")
@@ -88,7 +88,7 @@ sslam_cli_test(NAME "batch lists its runs" ARGS batch ${folder}/fine.toml --list
 sslam_cli_test(NAME "batch lists a shard" ARGS batch ${folder}/fine.toml --list --shard 4/4 ERR "no ground truth"
                OUT "^runs/images/structure-onnx-keyframes.min_gap=4/seed-1\n$")
 sslam_cli_test(NAME "batch into a foreign folder" ARGS batch ${folder}/fine.toml --out ${folder}/foreign CODE 1
-               ERR "sslam: error: [^\n]*foreign: holds something that sslam batch has not written. choose an empty folder\n$")
+               ERR "sslam: error: [^\n]*foreign: holds files that sslam batch did not write. choose an empty folder\n$")
 sslam_cli_test(NAME "batch without a suite" ARGS batch CODE 2 ERR "^sslam: error: SUITE is required")
 sslam_cli_test(NAME "batch of a missing suite" ARGS batch ${folder}/none.toml CODE 1 ERR "^sslam: error: [^\n]*none.toml: cannot open")
 sslam_cli_test(NAME "batch of a wrong shard" ARGS batch ${folder}/fine.toml --shard 5/4 CODE 2 ERR "--shard: '5/4' is not a part such as 2/8")

@@ -128,7 +128,7 @@ TEST_CASE("A calibration of another shape is refused with both sizes") {
   const Room room;
   room.scratch.write("camera.yaml", kYaml + "Camera.width: 640\nCamera.height: 480\n");
   CHECK(contains(room.error(640, 360),
-                 "camera.yaml: is for 640x480 pixels, and the images have 640x360: another shape"));
+                 "camera.yaml: is for 640x480 pixels, and the images have 640x360: another aspect ratio"));
   CHECK(contains(room.error(480, 640), "have 480x640: they are turned by 90 degrees"));
   CHECK(contains(room.error(240, 320), "turned by 90 degrees"));
 }

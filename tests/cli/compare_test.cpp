@@ -135,7 +135,8 @@ TEST_CASE("report refuses runs that cannot be compared, and writes nothing") {
   REQUIRE(run_program("synth " + other.string() + "_room --quiet --frames 5 --seed 4 --size 64x48").code ==
           0);
   (void)run_program("run " + other.string() + "_room --quiet --normals none --out " + other.string());
-  require_refused(runs.compare(other.string()), "other: has another ground truth than " + runs.a.string());
+  require_refused(runs.compare(other.string()),
+                  "other: has a different ground truth from " + runs.a.string());
   fs::remove(other / "groundtruth.txt");
   require_refused(runs.compare(other.string()), "other: is a run of " + other.string() + "_room, ");
   (void)run_program("run " + runs.folder.string() + " --quiet --normals none --start 56 --out " +

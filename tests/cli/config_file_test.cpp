@@ -114,7 +114,7 @@ TEST_CASE("options in a file: values that an option refuses, unknown keys, and w
        "'set'?"},
       {"a.b = 1\n", "the only table is [set], for parameters"},
       {"[run]\nend = 1\n", "line 1: 'run' is not an option of sslam run; the only table is [set]"},
-      {"config = \"x\"\n", "line 1: config: a file of options names no other one"},
+      {"config = \"x\"\n", "line 1: config: a file of options cannot name another one"},
       {"help = true\n", "line 1: 'help' is not an option"},
       {"end = \n", "line 1: is not TOML: "},
       {"out = none\n", "line 1: is not TOML: "},

@@ -239,7 +239,7 @@ TEST_CASE(
     CHECK(cv::norm(straight, wanted, cv::NORM_L1) < 0.5 * cv::norm(through_lens, wanted, cv::NORM_L1));
   }
   require_misused(export_run(run, "--images --format ply"),
-                  "--images: goes with --format colmap, depth or nerfstudio");
+                  "--images: needs --format colmap, depth or nerfstudio");
   fs::remove_all(bent);
   require_refused(export_run(run, "--images --format colmap --out " + (out / "gone").string()),
                   bent.string());

@@ -111,7 +111,7 @@ class Fetch(unittest.TestCase):
         data = self.files[TUM + ".tgz"] = self.pack(self.room, TUM)
         self.server.cut = len(data) // 3
         done = self.fetch("s-not-far", code=1)
-        self.assertIn("the same command goes on behind what has been received", done.stderr)
+        self.assertIn("the same command continues the download", done.stderr)
         part = self.out / (TUM + ".tgz.part")
         self.assertEqual(part.stat().st_size, len(data) // 3)
         self.fetch("s-not-far", "--keep-archive")
@@ -153,13 +153,13 @@ class Fetch(unittest.TestCase):
         self.assertFalse((self.folder / "evil.yaml").exists())
 
     def test_what_is_not_there(self):
-        self.assertRegex(self.fetch("s-not-far", code=1).stderr, "404.*is there a network, and is this still the address")
+        self.assertRegex(self.fetch("s-not-far", code=1).stderr, "404.*check the network and the address")
         self.assertIn("'lr-kt9' is not a sequence that can be fetched; known: lr-kt1, ", self.fetch("lr-kt9", code=1).stderr)
 
     def test_a_server_that_does_not_answer(self):
         done = sslam("fetch", "s-not-far", "--mirror", "http://127.0.0.1:1", "--out", self.out)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("is there a network", done.stderr)
+        self.assertIn("check the network", done.stderr)
         done = sslam("fetch", "s-not-far", "--mirror", "file://" + str(self.folder), "--out", self.out)
         self.assertEqual(done.returncode, 1)
 

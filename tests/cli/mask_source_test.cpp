@@ -79,7 +79,7 @@ TEST_CASE("Anything but 0 is used, in any colour and of any depth") {
 TEST_CASE("A mask with transparency is refused, and one that leaves out nothing or nearly all is doubted") {
   const Masks masks;
   CHECK(contains(Masks::error(masks.write("alpha.png", third(cv::Scalar(255, 255, 255, 0), CV_8UC4))),
-                 "alpha.png: the mask has transparency, which may mean either"));
+                 "alpha.png: the mask has transparency, whose meaning is not defined"));
   const cli::MaskSource white(masks.write("white.png", cv::Mat(kSize, CV_8UC1, cv::Scalar(255))), kSize);
   REQUIRE(white.warnings().size() == 1);
   CHECK(contains(white.warnings()[0], "white.png: leaves nothing out"));

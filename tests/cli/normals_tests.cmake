@@ -40,13 +40,13 @@ sslam_normals_refuses("another file" "notes.txt: is neither an image" ${folder}/
 sslam_normals_refuses("a broken image" "text.png: cannot decode this image" ${folder}/text.png ${tiny} --out ${folder}/none)
 sslam_normals_refuses("a glob that matches nothing" "no image matches" ${folder}/*.bmp ${tiny})
 file(WRITE ${folder}/other.yaml "Camera.fx: 260\nCamera.fy: 260\nCamera.cx: 319.5\nCamera.cy: 179.5\nCamera.width: 640\nCamera.height: 360\n")
-sslam_normals_refuses("an image of another camera" "other.yaml: is for 640x360 pixels, and the images have 320x240: another shape"
+sslam_normals_refuses("an image of another camera" "other.yaml: is for 640x360 pixels, and the images have 320x240: another aspect ratio"
                       ${fixtures}/room.jpg ${tiny} --camera ${folder}/other.yaml --out ${folder}/none)
 sslam_normals_refuses("an unknown camera" "absent.yaml" ${fixtures}/room.jpg ${tiny} --camera ${folder}/absent.yaml)
 sslam_normals_refuses("a missing model" "absent.onnx: no such model" ${fixtures}/room.jpg --model ${folder}/absent.onnx)
 sslam_normals_refuses("a model without manifest" "lonely.json: no such manifest" ${fixtures}/room.jpg --model ${folder}/lonely.onnx)
 sslam_normals_refuses("a file that is no model" "junk.onnx: no ONNX model" ${fixtures}/room.jpg --model ${folder}/junk.onnx)
 sslam_normals_refuses("an output below a file" "file/below: cannot make this folder" ${fixtures}/room.jpg ${tiny} --out ${folder}/file/below)
-sslam_normals_refuses("its own folder" "the images themselves are there" ${folder}/flawed ${tiny} --out ${folder}/flawed)
+sslam_normals_refuses("its own folder" "contains the images themselves" ${folder}/flawed ${tiny} --out ${folder}/flawed)
 sslam_cli_test(NAME "normals without images" ARGS normals CODE 2 ERR "sslam: error: IMAGES is required")
 sslam_cli_test(NAME "normals explains itself" ARGS normals --help OUT "--model" "--camera" "--out" "Exit codes: 0 success")

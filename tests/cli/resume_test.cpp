@@ -61,7 +61,7 @@ TEST_CASE("a run gives the same bits with a checkpoint behind each frame") {
   REQUIRE(metrics_of(copy.out)["resumed_at"].empty());
   REQUIRE_FALSE(fs::exists(copy.out / kCheckpoint));
   require_refused(resume(copy.out),
-                  "holds no checkpoint of a run that stopped; the results of one that ended");
+                  "holds no checkpoint of a run that stopped; it holds the results of a finished run");
 }
 
 TEST_CASE("a run that was killed goes on, twice alike, to results that are complete") {
@@ -99,7 +99,7 @@ TEST_CASE("a run that was interrupted leaves results, and goes on from there") {
                                             " --normals none --no-report");
   INFO(outcome.text);
   REQUIRE(outcome.code == 130);
-  REQUIRE(outcome.text.find("--resume " + copy.out.string() + " goes on from here") != std::string::npos);
+  REQUIRE(outcome.text.find("--resume " + copy.out.string() + " continues it") != std::string::npos);
   REQUIRE(copy.metrics()["interrupted"] == true);
   const Outcome fresh = copy.run("--end 5 --no-report");
   REQUIRE(fresh.text.find("holds the checkpoint of a run that stopped") != std::string::npos);
@@ -117,11 +117,11 @@ TEST_CASE("a checkpoint that fits nothing is refused") {
   write(file, whole);
   std::string list = text_of(copy.folder / "rgb.txt");
   write(copy.folder / "rgb.txt", list.substr(0, list.rfind('\n', list.size() - 2) + 1));
-  require_refused(resume(copy.out), "the dataset is another one by now");
+  require_refused(resume(copy.out), "the dataset has changed");
   write(copy.folder / "rgb.txt", list);
   std::string camera = text_of(copy.folder / "camera.yaml");
   write(copy.folder / "camera.yaml", camera.replace(camera.find("Camera.k1:"), 10, "Camera.k1: 0.01 #"));
-  require_refused(resume(copy.out), "the calibration is another one");
+  require_refused(resume(copy.out), "the calibration has changed");
 }
 
 }  // namespace resume_test

@@ -72,8 +72,7 @@ TEST_CASE("run --live hears Ctrl-C while it waits for an image that is an hour a
     REQUIRE(fs::exists(copy.out / name));
 }
 
-TEST_CASE(
-    "run asks the network that comes with sslam where lines leave something open, unless told otherwise") {
+TEST_CASE("run uses the network that comes with sslam where lines do not suffice, unless told otherwise") {
   const Copy copy;
   Outcome outcome = copy.run_by_default("--end 20");
   INFO(outcome.text);
@@ -432,7 +431,7 @@ TEST_CASE("run writes what it has when it is interrupted") {
       interrupt_program("run " + copy.folder.string() + " --normals none --out " + copy.out.string());
   INFO(outcome.text);
   const bool interrupted =
-      outcome.text.find("interrupted; what had been computed was written") != std::string::npos;
+      outcome.text.find("interrupted; the results until then were written") != std::string::npos;
   if (!interrupted) WARN("the run was over before it could be interrupted");
   REQUIRE(fs::exists(copy.out / "metrics.json"));
   REQUIRE(copy.metrics()["interrupted"] == interrupted);

@@ -52,7 +52,7 @@ TEST_CASE("a host that is not there, and a secure connection that fails, are tol
                "'http'?"));
   CHECK(contains(trouble(AVERROR(EINVAL), "ftp://camera/x", "Protocol 'ftp' not on whitelist 'http'!\n"),
                  "'ftp' is no protocol that is read here"));
-  CHECK(contains(trouble(AVERROR(ECONNREFUSED), "http:///x"), "names no host"));
+  CHECK(contains(trouble(AVERROR(ECONNREFUSED), "http:///x"), "has no host"));
 }
 
 TEST_CASE("a pipe is told as a pipe") {
@@ -72,7 +72,7 @@ TEST_CASE("why a stream that has given frames gives none any more") {
   CHECK(cli::trouble_while_reading(AVERROR_EOF, false).empty());
   CHECK(cli::trouble_while_reading(0, false).empty());
   CHECK(cli::trouble_while_reading(AVERROR(EIO), false) == "the connection ended");
-  CHECK(cli::trouble_while_reading(0, true) == "nothing came any more");
+  CHECK(cli::trouble_while_reading(0, true) == "no more data arrived");
 }
 
 }  // namespace stream_trouble_test

@@ -27,7 +27,7 @@ sslam_synth_refuses(--seed -1 "'-1' is not a whole number")
 sslam_synth_refuses(--threads 0 "not in range")
 sslam_synth_refuses(--lens 0.1 "'0.1' is not a lens such as")
 sslam_synth_refuses(--lens 0.1,nan "is not a lens")
-sslam_synth_refuses(--camera-error zoom=2 "'zoom=2' is not an error of a camera; expected such as focal=0.05")
+sslam_synth_refuses(--camera-error zoom=2 "'zoom=2' is not an error of a camera; expected errors such as focal=0.05")
 sslam_synth_refuses(--camera-error focal=-1 "needs a number between -0.9 and 0.9")
 sslam_synth_refuses(--camera-like toaster "'toaster' is not one of industrial, kinect, phone, webcam")
 sslam_synth_refuses(--jpeg-quality 101 "not in range")
@@ -41,7 +41,7 @@ sslam_synth_refuses(--image-fixed spots "'spots' is not one of bar, dots, none, 
 sslam_cli_test(NAME "synth of a quality without JPEG" ARGS synth ${folder}/refused --camera-like industrial --jpeg-quality 80 CODE 2
                ERR "^sslam: error: --jpeg-quality: needs --image-format jpg.*\n$")
 sslam_cli_test(NAME "synth through a lens that turns back" ARGS synth ${folder}/refused --lens -0.9,0 CODE 1
-               ERR "^sslam: error: --lens -0\.9,0,0,0: the distortion turns back.*--focal longer than 480\n$")
+               ERR "^sslam: error: --lens -0\.9,0,0,0: the distortion folds the image back.*--focal longer than 480\n$")
 sslam_cli_test(NAME "synth with a read-out longer than a frame" ARGS synth ${folder}/refused --read-out 0.05 CODE 1
                ERR "^sslam: error: --read-out 0\.05 is longer than a frame: expected at most 0\.03333 s at --fps 30\n$")
 

@@ -110,11 +110,11 @@ def check_video(program, scratch):
         run = Run(program, camera.address, *options, "--out", scratch / "cut")
         run.end()
     assert 0 < figures(scratch / "cut")["frames"] < FRAMES, run.events
-    assert any("the video broke off after frame" in text and "what follows is missing" in text for text in run.texts("warning")), run.events
+    assert any("the video broke off after frame" in text and "the rest is missing" in text for text in run.texts("warning")), run.events
     # OpenCV writes MP4 with its index at the end, where a stream does not get in time.
     with Camera(lambda number, send: send(answers["mp4"])) as camera:
         run = Run(program, camera.address, *options, "--out", scratch / "none")
-        assert run.end() == 1 and "index behind the pictures" in run.texts("error")[0], run.events
+        assert run.end() == 1 and "index after the pictures" in run.texts("error")[0], run.events
 
 
 def check_device(program, scratch):
@@ -191,7 +191,7 @@ def check_refusals(program, scratch):
     (scratch / "there").mkdir()
     (scratch / "there/file").touch()
     room, images = make_room(program, scratch)
-    refused("-", "--camera", room / "camera.yaml", "--record", scratch / "there", given=images[0], words="is there already; name a new folder")
+    refused("-", "--camera", room / "camera.yaml", "--record", scratch / "there", given=images[0], words="already exists; choose a new folder")
     refused("-", "--retry", "soon", words="--retry", code=2)
     # A folder that is called by a number is a folder.
     room.rename(scratch / "0")
