@@ -56,7 +56,7 @@ void bind_camera(nb::module_& module) {
           nb::arg("k3") = 0.0)
       .def_static(
           "from_file", [](const std::filesystem::path& path) { return read_camera_file(path).camera; },
-          nb::arg("path"), "Reads a camera file of any kind that docs/inputs.md lists. Raises sslam.Error.")
+          nb::arg("path"), "Reads a camera file in any format that docs/inputs.md lists. Raises sslam.Error.")
       .def_prop_ro("fx", [](const C& c) { return c.pinhole.fx; })
       .def_prop_ro("fy", [](const C& c) { return c.pinhole.fy; })
       .def_prop_ro("cx", [](const C& c) { return c.pinhole.cx; })

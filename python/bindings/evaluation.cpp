@@ -95,7 +95,8 @@ Mat<double, 4, 4> matrix_of_similarity(const Sim3<double>& s) {
 
 void bind_evaluation(nb::module_& module) {
   using io::Statistics;
-  nb::class_<Statistics>(module, "Statistics", "A list of errors in short; the rest is 0 where count is.")
+  nb::class_<Statistics>(module, "Statistics",
+                         "Summary of a list of errors; if count is 0, so is everything else.")
       .def_ro("count", &Statistics::count)
       .def_ro("rmse", &Statistics::rmse)
       .def_ro("mean", &Statistics::mean)
@@ -110,7 +111,7 @@ void bind_evaluation(nb::module_& module) {
                       s.median, s.max, s.count);
         return std::string(text);
       });
-  nb::class_<io::RelativeError>(module, "RelativeError", "Of the motion over a step of time.")
+  nb::class_<io::RelativeError>(module, "RelativeError", "Errors of the motion over a step of time.")
       .def_prop_ro("step", [](const io::RelativeError& e) { return e.delta.value; })
       .def_prop_ro("unit",
                    [](const io::RelativeError& e) {
@@ -137,19 +138,21 @@ void bind_evaluation(nb::module_& module) {
           [](const Compared& c) {
             return matrix_array<4, 4>(matrix_of_similarity(c.evaluation.truth_from_estimate));
           },
-          "truth from estimate, (4, 4), scale included")
+          "ground truth from estimate, (4, 4), with the scale")
       .def_prop_ro(
           "poses", [](const Compared& c) { return c.evaluation.poses; }, "in the estimate")
       .def_prop_ro(
-          "pairs", [](const Compared& c) { return c.evaluation.pairs; }, "of them, those with a true pose")
+          "pairs", [](const Compared& c) { return c.evaluation.pairs; },
+          "number of estimated poses that have a true pose")
       .def_prop_ro(
           "frames", [](const Compared& c) { return c.evaluation.frames; },
-          "that could have been tracked; 0: not known")
+          "number of frames that could have been tracked; 0: not known")
       .def_prop_ro(
-          "tracked", [](const Compared& c) { return c.evaluation.tracked; }, "of them, those with a pose")
+          "tracked", [](const Compared& c) { return c.evaluation.tracked; },
+          "number of those frames that have a pose")
       .def_prop_ro(
           "notes", [](const Compared& c) { return c.evaluation.notes; },
-          "what makes the figures doubtful, a line each")
+          "reasons to doubt the figures, one line each")
       .def_prop_ro(
           "stamps", [](const Compared& c) { return array_of(c.stamps); }, "of the pairs, seconds, (N,)")
       .def_prop_ro(

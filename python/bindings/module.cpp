@@ -41,15 +41,14 @@ NB_MODULE(_sslam, module) {
   module.doc() = "The compiled part of sslam: use the package `sslam`, which checks arguments.";
   nb::register_exception_translator(translate);
   module.attr("__version__") = SSLAM_VERSION;
-  nb::enum_<Status>(
-      module, "Status", nb::is_arithmetic(),
-      "What a kernel answers: one code for success, and one for each way the geometry can refuse.")
-      .value("OK", Status::kOk, "the answer may be used")
+  nb::enum_<Status>(module, "Status", nb::is_arithmetic(),
+                    "The result code of a kernel: one for success, and one for each kind of failure.")
+      .value("OK", Status::kOk, "the result may be used")
       .value("TOO_FEW", Status::kTooFew, "fewer observations than unknowns, or than the minimum")
       .value("DEGENERATE", Status::kDegenerate,
-             "the observations leave a direction of the answer undetermined")
+             "the observations do not determine the result in some direction")
       .value("LOW_PARALLAX", Status::kLowParallax, "the views are too close together for a depth")
-      .value("BEHIND", Status::kBehind, "the answer lies behind a camera")
+      .value("BEHIND", Status::kBehind, "the result lies behind a camera")
       .value("NO_CONSENSUS", Status::kNoConsensus, "no model agrees with enough of the observations")
       .value("NOT_CONVERGED", Status::kNotConverged,
              "the iterations ran out; the best state so far is returned")

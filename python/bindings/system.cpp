@@ -63,7 +63,7 @@ nb::object pose_or_none(const std::optional<SE3<double>>& world_from_cam) {
 }
 
 void bind_result(nb::module_& module) {
-  nb::enum_<State>(module, "State", nb::is_arithmetic(), "How the camera is followed.")
+  nb::enum_<State>(module, "State", nb::is_arithmetic(), "State of tracking.")
       .value("INITIALISING", State::kInitialising, "no map yet")
       .value("MANHATTAN", State::kManhattan,
              "rotation from the Manhattan frame, translation from points and lines")
@@ -71,38 +71,36 @@ void bind_result(nb::module_& module) {
       .value("UNCERTAIN", State::kUncertain, "a pose too uncertain to build the map on")
       .value("LOST", State::kLost, "no pose");
   nb::enum_<Reason>(module, "Reason", nb::is_arithmetic(), "Why a frame has its state.")
-      .value("FINE", Reason::kFine, "nothing to say")
+      .value("FINE", Reason::kFine, "no reason")
       .value("TOO_FEW_FEATURES", Reason::kTooFewFeatures, "the image shows too little")
       .value("TOO_FEW_MATCHES", Reason::kTooFewMatches,
-             "too little of the reference frame, or of the map, is seen again")
-      .value("LOW_PARALLAX", Reason::kLowParallax, "the camera has turned or stood still: no depth yet")
+             "too few features of the reference frame, or of the map, are matched")
+      .value("LOW_PARALLAX", Reason::kLowParallax, "the camera has only turned or stood still: no depth yet")
       .value("NO_CONSENSUS", Reason::kNoConsensus, "the matches do not agree on one motion")
       .value("NO_MANHATTAN_FRAME", Reason::kNoManhattanFrame, "no Manhattan evidence in this image")
-      .value("MANHATTAN_REJECTED", Reason::kManhattanRejected,
-             "the Manhattan pose does not agree with the map")
-      .value("UNCERTAIN_POSE", Reason::kUncertainPose,
-             "enough matches, but they leave the pose too uncertain")
+      .value("MANHATTAN_REJECTED", Reason::kManhattanRejected, "the Manhattan pose disagrees with the map")
+      .value("UNCERTAIN_POSE", Reason::kUncertainPose, "enough matches, but the pose is too uncertain")
       .value("RELOCALISED", Reason::kRelocalised, "found again after a loss");
-  nb::class_<Result>(module, "Result", "What System.track says about one frame.")
+  nb::class_<Result>(module, "Result", "The result of System.track for one frame.")
       .def_prop_ro(
           "pose",
           [](const Result& r) {
             return pose_or_none(r.has_pose() ? std::optional(r.cam_from_world.inverse()) : std::nullopt);
           },
           nb::sig("def pose(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "camera to world, (4, 4), in units of the map; None where the frame has no pose")
+          "camera to world, (4, 4), in units of the map; None if the frame has no pose")
       .def_prop_ro("covariance", &covariance_or_none,
                    nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None"),
                    "(6, 6), of xi in pose @ Exp(xi), in the camera's axes: rotation first, rad^2, then the "
-                   "place, units of the map squared. The map counts as exact. None where the pose was not "
-                   "refined against the map: where there is none, or it began the map, or the preset is "
+                   "position, units of the map squared. The map counts as exact. None if the pose was not "
+                   "refined against the map: there is no pose, the frame began the map, or the preset is "
                    "'odometry'")
       .def_ro("index", &Result::index, "number of the frame, from 0")
       .def_ro("stamp", &Result::stamp, "seconds")
       .def_ro("state", &Result::state)
       .def_ro("reason", &Result::reason)
       .def_ro("world", &Result::world,
-              "that the pose is in: each map that is begun has its own, until maps are joined")
+              "number of the map that the pose is in; each new map has its own until maps are joined")
       .def_prop_ro(
           "inliers", [](const Result& r) { return r.point_inliers + r.line_inliers; },
           "features that agree with the pose")
@@ -113,18 +111,22 @@ void bind_result(nb::module_& module) {
       .def_ro("normals", &Result::normals, "surface normals found in the image")
       .def_prop_ro(
           "normals_asked", [](const Result& r) { return std::string(name(r.normal_need)); },
-          "why normals were looked for; empty: they were not")
+          "why normals were computed; empty: they were not")
       .def_prop_ro(
           "normals_status", [](const Result& r) { return std::string(name(r.normal_status)); },
           "'ok', or why there are no normals")
       .def_ro("axes_seen", &Result::axes_seen, "Manhattan axes with support, 0 to 3")
       .def_ro("structure", &Result::structure,
               "the Manhattan rotation took part in the pose, and agrees with it")
-      .def_ro("image_fixed", &Result::image_fixed, "features left out, since they never move in the image")
-      .def_ro("keyframe", &Result::keyframe, "this frame joined the map")
-      .def_ro("loop_closed", &Result::loop_closed, "a place was recognised, and the map has moved")
-      .def_ro("maps_joined", &Result::maps_joined, "with a map that had been left")
-      .def_ro("map_changed", &Result::map_changed, "for one of these reasons, or because another map began")
+      .def_ro("image_fixed", &Result::image_fixed,
+              "number of features left out because they never move in the image")
+      .def_ro("keyframe", &Result::keyframe, "the frame became a keyframe of the map")
+      .def_ro("loop_closed", &Result::loop_closed,
+              "a loop was closed: a place was recognised, and the map has changed")
+      .def_ro("maps_joined", &Result::maps_joined,
+              "two maps were joined: this one and one that had been left")
+      .def_ro("map_changed", &Result::map_changed,
+              "the map changed: one of the events above, or another map began")
       .def_ro("warnings", &Result::warnings, "a line each")
       .def_prop_ro("timings", &timings,
                    "milliseconds of wall clock by name; 'frame' is 'extraction' and 'tracking' together")
@@ -152,7 +154,7 @@ auto reader(Of of) {
 }
 
 void bind_tracking(nb::module_& module) {
-  nb::class_<Tracking>(module, "Tracking", "What sslam.System is made of.")
+  nb::class_<Tracking>(module, "Tracking", "The implementation of sslam.System.")
       .def("__init__",
            [](Tracking* self, const Camera<double>& camera, const std::string& preset,
               const std::string& normals, const std::map<std::string, double>& parameters, std::uint64_t seed,

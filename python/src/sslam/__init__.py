@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    """Called for what is not here yet. OpenCV's libraries take a while to load: they come when something is used."""
+    """Called for names that are not loaded yet. OpenCV's libraries take a while to load, so they are loaded at first use."""
     here = globals()
     if name in ("__all__", "__version__") or not name.startswith("_"):
         public = importlib.import_module("._public", __name__)

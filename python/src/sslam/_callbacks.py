@@ -1,4 +1,4 @@
-"""Who is told what happened to a frame."""
+"""The user's callbacks for the events of a frame."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def warn(line: str, level: int) -> None:
 
 
 class Callbacks:
-    """By event, in the order in which they were added."""
+    """Callbacks by event, in the order in which they were added."""
 
     def __init__(self) -> None:
         self._told: Dict[str, List[Callable[[Any], Any]]] = {event: [] for event in EVENTS}

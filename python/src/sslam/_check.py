@@ -1,4 +1,4 @@
-"""Arguments as arrays: what can be taken is taken without a copy, the rest is refused by the argument's name."""
+"""Arguments as arrays, without a copy if possible. An invalid argument is refused with its name."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def manhattan_rotation(
     ends = _check.numbers("segments", np.empty((0, 4)) if segments is None else segments, ("M", 4))
     lens = None if camera is None else as_camera("camera", camera)
     if len(ends) and lens is None:
-        raise ValueError("camera: segments are in pixels: whose?")
+        raise ValueError("camera: is needed, since segments are in its pixels")
     if weights is not None:
         weights = _check.numbers("weights", weights, ("N",), np.float32)
         if len(weights) != len(votes):
@@ -79,11 +79,11 @@ def manhattan_rotation(
 def relative_pose(
     pixels0: Any, pixels1: Any, camera: CameraOrPath, *, start: Any = None, sigma: float = 1.0, seed: int = 1
 ) -> RelativePose:
-    """The motion between two views, up to its length, from matches some of which may be wrong.
+    """The motion between two views, up to its length, from matches. Some of them may be wrong.
 
     pixels0, pixels1: (N, 2), matches in both images, pixels; sigma: of each coordinate, pixels.
-    start: (4, 4), camera 0 to camera 1, which is refined. Without it the motion is searched for, for turns up to about
-        10 degrees.
+    start: (4, 4), camera 0 to camera 1: an estimate to refine. Without it, the motion is searched for, with turns up
+        to about 10 degrees.
     """
     a, b = _matches(pixels0, pixels1)
     if start is not None:
@@ -134,7 +134,7 @@ def refine_pose(
     segments: Any = None,
     sigma: float = 1.0,
 ) -> RefinedPose:
-    """A camera's pose from points and lines of a map that it sees, some of which may be wrong.
+    """A camera's pose from points and lines of a map that it sees. Some of them may be wrong.
 
     points, pixels: (N, 3) in the world, and (N, 2) in the image; sigma: of each coordinate, pixels.
     lines, segments: (M, 2, 3), two points on each line in the world, and (M, 4), ends u0 v0 u1 v1 of what the image

@@ -1,4 +1,4 @@
-"""Kernels on what several views of known poses see. As those of _kernels: pixels with distortion, a status as answer."""
+"""Kernels for several views with known poses. As in _kernels, pixels have distortion and the result has a status."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def triangulate_points(
 
     poses: (V, 4, 4), camera to world.
     pixels: (N, V, 2), where each view sees each point; NaN where it does not; sigma: of each coordinate, pixels.
-    min_parallax_deg: largest angle between two of the rays: less is LOW_PARALLAX.
+    min_parallax_deg: least parallax, the largest angle between two of the rays; below it the status is LOW_PARALLAX.
     """
     views = _check.numbers("poses", poses, ("V", 4, 4))
     seen = _seen("pixels", pixels, views, 2)
@@ -59,8 +59,8 @@ def triangulate_lines(
     segments: (N, V, 4), the observed part of each line in each view, ends u0 v0 u1 v1 in pixels; NaN where there is
         none. The ends need not be the same points of the line. sigma: of an end across the segment, pixels.
     directions: (N, 3), of each line in the world, such as a Manhattan axis; NaN where not known.
-    min_parallax_deg: largest angle between two of the planes through a camera and its segment: less is LOW_PARALLAX;
-        half of it is enough where the direction is known.
+    min_parallax_deg: least parallax, the largest angle between two of the planes through a camera and its segment;
+        below it the status is LOW_PARALLAX. Half of it is enough where the direction is known.
     """
     views = _check.numbers("poses", poses, ("V", 4, 4))
     seen = _seen("segments", segments, views, 4)
@@ -91,7 +91,7 @@ def bundle_adjust(
     sigma: float = 1.0,
     max_iterations: int = 50,
 ) -> BundleAdjustment:
-    """Poses, points and lines that fit the observations best. Wrong observations count less (Cauchy's loss).
+    """Poses, points and lines that fit the observations best. Wrong observations get less weight (Cauchy's loss).
 
     poses: (V, 4, 4), camera to world, to start from.
     points, pixels: (N, 3) in the world, to start from, and (N, V, 2), where each view sees each point; NaN where it does
@@ -110,7 +110,7 @@ def bundle_adjust(
         held = np.arange(len(views)) == 0
     stays = _check.numbers("held", held, (len(views),), np.bool_)
     if len(views) and not stays.any():
-        raise ValueError("held: no pose stays as it is: at least one must, or the world may drift anywhere")
+        raise ValueError("held: no pose is fixed; at least one must be, since pixels do not determine the world's frame")
     return BundleAdjustment(
         *_sslam.bundle_adjust(
             views,

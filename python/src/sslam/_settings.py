@@ -1,4 +1,4 @@
-"""What a system is made of: presets, parameters, a camera, the shipped network."""
+"""The settings of a system: presets, parameters, a camera, the shipped network."""
 
 from __future__ import annotations
 

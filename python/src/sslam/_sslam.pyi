@@ -14,23 +14,23 @@ from numpy.typing import NDArray
 
 class Status(enum.IntEnum):
     """
-    What a kernel answers: one code for success, and one for each way the geometry can refuse.
+    The result code of a kernel: one for success, and one for each kind of failure.
     """
 
     OK = 0
-    """the answer may be used"""
+    """the result may be used"""
 
     TOO_FEW = 1
     """fewer observations than unknowns, or than the minimum"""
 
     DEGENERATE = 2
-    """the observations leave a direction of the answer undetermined"""
+    """the observations do not determine the result in some direction"""
 
     LOW_PARALLAX = 3
     """the views are too close together for a depth"""
 
     BEHIND = 4
-    """the answer lies behind a camera"""
+    """the result lies behind a camera"""
 
     NO_CONSENSUS = 5
     """no model agrees with enough of the observations"""
@@ -53,7 +53,7 @@ class Camera:
     @staticmethod
     def from_file(path: str | os.PathLike[str]) -> Camera:
         """
-        Reads a camera file of any kind that docs/inputs.md lists. Raises sslam.Error.
+        Reads a camera file in any format that docs/inputs.md lists. Raises sslam.Error.
         """
 
     @property
@@ -130,7 +130,7 @@ class Map:
     def keyframes(self) -> tuple[Any, ...]: ...
 
 class State(enum.IntEnum):
-    """How the camera is followed."""
+    """State of tracking."""
 
     INITIALISING = 0
     """no map yet"""
@@ -151,16 +151,16 @@ class Reason(enum.IntEnum):
     """Why a frame has its state."""
 
     FINE = 0
-    """nothing to say"""
+    """no reason"""
 
     TOO_FEW_FEATURES = 1
     """the image shows too little"""
 
     TOO_FEW_MATCHES = 2
-    """too little of the reference frame, or of the map, is seen again"""
+    """too few features of the reference frame, or of the map, are matched"""
 
     LOW_PARALLAX = 3
-    """the camera has turned or stood still: no depth yet"""
+    """the camera has only turned or stood still: no depth yet"""
 
     NO_CONSENSUS = 4
     """the matches do not agree on one motion"""
@@ -169,27 +169,27 @@ class Reason(enum.IntEnum):
     """no Manhattan evidence in this image"""
 
     MANHATTAN_REJECTED = 6
-    """the Manhattan pose does not agree with the map"""
+    """the Manhattan pose disagrees with the map"""
 
     UNCERTAIN_POSE = 7
-    """enough matches, but they leave the pose too uncertain"""
+    """enough matches, but the pose is too uncertain"""
 
     RELOCALISED = 8
     """found again after a loss"""
 
 class Result:
-    """What System.track says about one frame."""
+    """The result of System.track for one frame."""
 
     @property
     def pose(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
-        camera to world, (4, 4), in units of the map; None where the frame has no pose
+        camera to world, (4, 4), in units of the map; None if the frame has no pose
         """
 
     @property
     def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
-        (6, 6), of xi in pose @ Exp(xi), in the camera's axes: rotation first, rad^2, then the place, units of the map squared. The map counts as exact. None where the pose was not refined against the map: where there is none, or it began the map, or the preset is 'odometry'
+        (6, 6), of xi in pose @ Exp(xi), in the camera's axes: rotation first, rad^2, then the position, units of the map squared. The map counts as exact. None if the pose was not refined against the map: there is no pose, the frame began the map, or the preset is 'odometry'
         """
 
     @property
@@ -209,7 +209,7 @@ class Result:
     @property
     def world(self) -> int:
         """
-        that the pose is in: each map that is begun has its own, until maps are joined
+        number of the map that the pose is in; each new map has its own until maps are joined
         """
 
     @property
@@ -236,7 +236,7 @@ class Result:
 
     @property
     def normals_asked(self) -> str:
-        """why normals were looked for; empty: they were not"""
+        """why normals were computed; empty: they were not"""
 
     @property
     def normals_status(self) -> str:
@@ -252,23 +252,23 @@ class Result:
 
     @property
     def image_fixed(self) -> int:
-        """features left out, since they never move in the image"""
+        """number of features left out because they never move in the image"""
 
     @property
     def keyframe(self) -> bool:
-        """this frame joined the map"""
+        """the frame became a keyframe of the map"""
 
     @property
     def loop_closed(self) -> bool:
-        """a place was recognised, and the map has moved"""
+        """a loop was closed: a place was recognised, and the map has changed"""
 
     @property
     def maps_joined(self) -> bool:
-        """with a map that had been left"""
+        """two maps were joined: this one and one that had been left"""
 
     @property
     def map_changed(self) -> bool:
-        """for one of these reasons, or because another map began"""
+        """the map changed: one of the events above, or another map began"""
 
     @property
     def warnings(self) -> list[str]:
@@ -283,7 +283,7 @@ class Result:
     def __repr__(self) -> str: ...
 
 class Tracking:
-    """What sslam.System is made of."""
+    """The implementation of sslam.System."""
 
     def __init__(self, arg0: Camera, arg1: str, arg2: str, arg3: Mapping[str, float], arg4: int, arg5: bool, arg6: int, arg7: bool, arg8: float, arg9: float, /) -> None: ...
 
@@ -379,7 +379,7 @@ class Frames:
     def next(self, with_depth: bool) -> tuple[Any, ...] | None: ...
 
 class Statistics:
-    """A list of errors in short; the rest is 0 where count is."""
+    """Summary of a list of errors; if count is 0, so is everything else."""
 
     @property
     def count(self) -> int: ...
@@ -406,7 +406,7 @@ class Statistics:
     def __repr__(self) -> str: ...
 
 class RelativeError:
-    """Of the motion over a step of time."""
+    """Errors of the motion over a step of time."""
 
     @property
     def step(self) -> float: ...
@@ -445,7 +445,7 @@ class Evaluation:
 
     @property
     def transform(self) -> NDArray[numpy.float64]:
-        """truth from estimate, (4, 4), scale included"""
+        """ground truth from estimate, (4, 4), with the scale"""
 
     @property
     def poses(self) -> int:
@@ -453,19 +453,19 @@ class Evaluation:
 
     @property
     def pairs(self) -> int:
-        """of them, those with a true pose"""
+        """number of estimated poses that have a true pose"""
 
     @property
     def frames(self) -> int:
-        """that could have been tracked; 0: not known"""
+        """number of frames that could have been tracked; 0: not known"""
 
     @property
     def tracked(self) -> int:
-        """of them, those with a pose"""
+        """number of those frames that have a pose"""
 
     @property
     def notes(self) -> list[str]:
-        """what makes the figures doubtful, a line each"""
+        """reasons to doubt the figures, one line each"""
 
     @property
     def stamps(self) -> object:

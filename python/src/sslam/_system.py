@@ -27,14 +27,14 @@ class System:
     normals: source of surface normals: "onnx" (the network that comes with sslam), "onnx:FILE" (another one), "depth"
         (registered depth images), "files:DIR", "none" (lines alone), or a function that is called with each image of
         track() and returns normals as for track(normals=...), or None. "on-demand:SOURCE" uses a source only where the
-        lines of a frame leave its rotation open. The default is "on-demand", with the network of sslam, or "none" if
-        it is not installed or the preset does not use normals.
+        lines of a frame do not determine its rotation. The default is "on-demand", with the network of sslam, or
+        "none" if it is not installed or the preset does not use normals.
     parameters: values that differ from their defaults, by the names of sslam.parameters(), in their units; or
         as keywords with two underscores for each dot: keyframes__max_turn=10.
     colours: order of the channels of images with three or four: "bgr" (as OpenCV reads them, no copy), or "rgb".
-    live: mapping and loop closing have their own thread, and tracking never waits for them; no two runs are alike.
+    live: mapping and loop closing have their own thread, and tracking never waits for them; no two runs are equal.
         Otherwise the same images give the same results, bit for bit.
-    seed: of all random samples.
+    seed: seed of all random samples.
     longest_side: longest side of an image in pixels: larger images are shrunk; 0: no limit.
     final_pass: finish() adjusts the whole map and tracks every frame again in it; 100 kB of memory a frame.
     depth_factor: value of one metre in a uint16 depth image.
@@ -123,7 +123,7 @@ class System:
         normals: float, (h, w, 3) or (h, w, 4), in the shape of the image but of any size: unit vectors in the camera
             frame (x right, y down, z forward) that point towards the camera, zero where there is none; the fourth
             channel is the probability of lying on a plane.
-        name: of the image file, without folder and extension: finds the normals of "files:DIR".
+        name: name of the image file, without folder and extension; it selects the normals of "files:DIR".
 
         Pixels are read in place, without a copy, if those of a row are contiguous; they must not change during the
         call. Raises TypeError for a wrong dtype, ValueError for a wrong shape or stamp, FinishedError after
@@ -194,7 +194,7 @@ class System:
         return Trajectory(*self._tracking.keyframes())
 
     def trajectory(self) -> Trajectory:
-        """The poses of all tracked frames by the current map."""
+        """The poses of all tracked frames in the current map."""
         return Trajectory(*self._tracking.trajectory())
 
     def latest(self) -> Latest:
@@ -214,7 +214,7 @@ class System:
         self._tracking.save_trajectory(_check.path("path", path))
 
     def localise_only(self, on: bool = True) -> None:
-        """True: the map is not changed: no keyframe is made and no map begun."""
+        """True: the map does not change: no keyframe is made and no map begun. False: it grows again."""
         self._tracking.localise_only(bool(on))
 
     def parameters(self) -> List[Parameter]:

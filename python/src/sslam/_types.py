@@ -1,5 +1,5 @@
-"""The results of the package, as named tuples of numpy arrays. All arrays are copies, which do not change when the
-system goes on."""
+"""The results of the package, as named tuples of numpy arrays. All arrays are copies: they do not change when the
+system continues."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ class Trajectory(NamedTuple):
 
     @property
     def positions(self) -> Floats:
-        """(N, 3), of the camera in the world"""
+        """(N, 3), positions of the camera in the world"""
         return self.poses[:, :3, 3]
 
 
 class Lines(NamedTuple):
     ends: Floats
-    """(N, 2, 3), both ends of what was seen of each line, world"""
+    """(N, 2, 3), both ends of the observed part of each line, world"""
     axis: NDArray[np.int8]
     """(N,), number of the Manhattan axis that each follows; -1: none"""
 
@@ -55,18 +55,18 @@ class Latest(NamedTuple):
     pose: Optional[Floats]
     """(4, 4), camera to world; None: there is none"""
     world: int
-    """that the pose is in: poses of different worlds have nothing in common"""
+    """number of the map that the pose is in; different maps have different coordinates and units"""
 
 
 class Parameter(NamedTuple):
     name: str
     value: float
-    """in the unit"""
+    """in `unit`"""
     unit: str
     """share, count, pixels, degrees, seconds; empty: a ratio or a factor"""
     least: float
     most: float
-    """infinite where there is no upper end"""
+    """infinite if there is no upper limit"""
     meaning: str
 
 
@@ -94,7 +94,7 @@ class Frame:
     pose: Optional[Floats]
     """(4, 4), camera to world, true; None: not known"""
     mask: Optional[NDArray[np.uint8]] = None
-    """(H, W), for System.track: 0 where a wide lens, whose image this was, sees nothing; None: it is all of use"""
+    """(H, W), for System.track: 0 where the wide lens that took the image sees nothing; None: no mask is needed"""
 
 
 class ManhattanRotation(NamedTuple):
@@ -104,11 +104,11 @@ class ManhattanRotation(NamedTuple):
     covariance: Floats
     """(3, 3), rad^2, of the left perturbation in the camera frame"""
     axes_seen: int
-    """with support, 0 to 3"""
+    """number of axes with support, 0 to 3"""
     deviation: float
-    """radians: standard deviation of the worst rotation that was observed, by the votes alone"""
+    """radians: standard deviation about the worst observed axis, by the votes alone"""
     ambiguity: float
-    """without a prior: likelihood of the second best frame as a share of the best; 0: there is none"""
+    """without a prior: likelihood of the second best Manhattan frame as a share of the best; 0: there is none"""
     axis_of: NDArray[np.int8]
     """(M,), axis 0, 1 or 2 that each segment follows; -1: none"""
 
@@ -156,7 +156,7 @@ class TriangulatedLines(NamedTuple):
     status: NDArray[np.uint8]
     """(N,), values of sslam.Status: ends[status == sslam.Status.OK] are those to be used"""
     ends: Floats
-    """(N, 2, 3), world: of all that the views show of each line"""
+    """(N, 2, 3), world: both ends of everything that the views show of each line"""
     covariance: Floats
     """(N, 3, 3), of the middle, across the line"""
     parallax: Floats
@@ -164,12 +164,12 @@ class TriangulatedLines(NamedTuple):
     max_error: Floats
     """(N,), largest distance of a segment's end from the line in its image, standard deviations"""
     overlap: Floats
-    """(N,), what all views show, over the shortest stretch that one of them shows"""
+    """(N,), the part that all views show, over the shortest part that one of them shows"""
 
 
 class BundleAdjustment(NamedTuple):
     status: Status
-    """OK and NOT_CONVERGED: what follows is the better state; else it is as it was given"""
+    """OK or NOT_CONVERGED: the values below are the best state found; otherwise they are the input"""
     poses: Floats
     """(V, 4, 4), camera to world"""
     points: Floats
@@ -185,7 +185,7 @@ class BundleAdjustment(NamedTuple):
 class RefinedPose(NamedTuple):
     status: Status
     pose: Floats
-    """(4, 4), camera to world; as it was given unless status is OK"""
+    """(4, 4), camera to world; the input unless status is OK"""
     information: Floats
     """(6, 6), inverse covariance of the left perturbation of world to camera, rotation first"""
     point_inliers: NDArray[np.bool_]

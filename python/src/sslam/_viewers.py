@@ -111,7 +111,7 @@ class _Run:
 
 
 def _images(run: _Run, settings: Dict[str, Any]) -> Iterator[Frame]:
-    """The run's images, where its dataset is still there; else a warning."""
+    """The run's images if its dataset still exists; else a warning."""
     wanted = {int(row["index"]) for row in run.frames()}
     try:
         with warnings.catch_warnings():
