@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The members of BasicSystem, for who brings a front end of his own; src/system.cpp compiles those of System.
+// The members of BasicSystem, for programs with their own front end; src/system.cpp compiles those of System.
 #pragma once
 
 #include <cmath>
@@ -82,7 +82,7 @@ void BasicSystem<Frontend>::keep_normal_picture(Extraction& out) const {
   out.normal_pinhole = frontend_->normals.small_pinhole(camera_, out.normal_picture.size());
 }
 
-// Normals that the frame has already, of the caller's own say, stay.
+// Keeps normals that the frame already has, for example from the caller.
 template <class Frontend>
 void BasicSystem<Frontend>::ask_for_normals(Extraction& extraction, FrameReport& report) {
   Frame<double>& frame = extraction.frame;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The heavy kernels are instantiated once a scalar, in src/, instead of once for every pipeline: who includes
-// this links sslam::stages, which has them for double. SSLAM_FLOAT_KERNELS says that those for float are
-// linked as well.
+// The heavy kernels are instantiated once for each scalar, in src/, instead of once for every pipeline. A
+// program that includes this must link sslam::stages, which has them for double. SSLAM_FLOAT_KERNELS says
+// that those for float are linked as well.
 #pragma once
 
 #include "sslam/manhattan/rotation.hpp"
@@ -15,7 +15,7 @@
 #include "sslam/solver/two_view/relative_pose.hpp"
 #include "sslam/solver/two_view/translation.hpp"
 
-// One family each: KERNELS(extern, S) declares what KERNELS(, S) instantiates.
+// One macro for each family: KERNELS(extern, S) declares what KERNELS(, S) instantiates.
 #define SSLAM_MANHATTAN_KERNELS(EXTERN, S)                                                                   \
   EXTERN template ManhattanEstimate<S> track_manhattan(                                                      \
       const NormalView<float>&, std::span<const LineVote<S>>, const ManhattanPrior<S>&,                      \

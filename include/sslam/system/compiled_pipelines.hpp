@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pipelines that sslam::system has compiled: whoever includes this and links it compiles them no more.
+// The pipelines compiled in sslam::system: a program that includes this and links it does not compile them.
 #pragma once
 
 #include "sslam/live/mapping_thread.hpp"

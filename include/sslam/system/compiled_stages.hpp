@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stages that sslam::system has compiled for `double`: whoever includes this and links it compiles them
-// no more, in whatever pipeline they stand.
+// The stages compiled for `double` in sslam::stages: a program that includes this and links it does not
+// compile them, in any pipeline.
 #pragma once
 
 #include "sslam/system/compiled_kernels.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An image on its way to the tracker: what the front end has found in it.
+// The result of the front end for one image, ready for the tracker.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,11 +13,11 @@ namespace sslam {
 struct Extraction {
   Frame<double> frame;
   FrontendReport report;
-  ImageInput asked_of;  // what normals on demand are found in: a copy; no image where they are not on demand
-  std::string label;    // what the caller calls the image, for observers
-  // The image and its normals in small, where Settings::keep_pictures asks for them; empty otherwise.
+  ImageInput asked_of;  // copy of the image for normals on demand; empty if they are not on demand
+  std::string label;    // the caller's name of the image, for observers
+  // Small pictures of the image and its normals, if Settings::keep_pictures is set; else empty.
   cv::Mat picture, normal_picture;
-  Pinhole<double> normal_pinhole;  // of the normals' pixels, lens distortion taken out
+  Pinhole<double> normal_pinhole;  // of the normals' pixels, without lens distortion
 
   [[nodiscard]] bool usable() const noexcept { return report.image == ImageStatus::kOk; }
 };

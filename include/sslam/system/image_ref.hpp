@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An image of somebody else's, for callers without OpenCV: where its pixels lie, and in what order.
+// A view of the caller's image, for callers without OpenCV: where its pixels are, and in what order.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ namespace sslam {
 
 enum class PixelFormat : std::uint8_t { kGrey8, kBgr8, kRgb8, kBgra8, kRgba8 };
 
-// Rows from top to bottom, pixels from left to right, 8 bit a channel. The pixels stay the caller's, and are
-// only read during the call that gets the view.
+// Rows from top to bottom, pixels from left to right, 8 bit per channel. The caller owns the pixels; they are
+// only read, and only during the call that gets the view.
 struct ImageRef {
   const std::uint8_t* data = nullptr;
   int width = 0, height = 0;
@@ -36,8 +36,8 @@ struct ImageRef {
   return 0;
 }
 
-// Grey, BGR or BGRA, as OpenCV has them: the caller's own pixels, or a copy where red and blue change places.
-// Throws Error where the view says something that no image can be.
+// The image as OpenCV's grey, BGR or BGRA: the caller's pixels, or a copy if red and blue must be swapped.
+// Throws Error if no image can be as the view describes it.
 [[nodiscard]] inline cv::Mat to_mat(const ImageRef& image) {
   if (image.data == nullptr || image.width <= 0 || image.height <= 0) return {};
   const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(channels(image.format));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a System says of the input of one call. Anything but kOk: the frame is left out, and the system is as
-// it was before the call.
+// Whether a System can use the input of one call. Unless kOk, the frame is left out and the call does not
+// change the system.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class InputStatus : std::uint8_t {
   kWrongSize,
   kWrongType,
   kWrongMask,
-  kBadStamp,  // not finite, or not later than that of the frame before
+  kBadStamp,  // not finite, or not later than that of the previous frame
   kFinished,  // after finish()
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of surface normals that is chosen at run time, behind the front end's concept.
+// A source of surface normals that is chosen at run time; a model of the front end's concept.
 #pragma once
 
 #include <utility>
@@ -17,9 +17,9 @@ namespace sslam {
 
 struct NormalChoice {
   std::variant<NoNormals, DepthNormals, FileNormals, OnnxNormals> source;
-  // True: the source is asked where a frame's lines leave its rotation open
-  // (track/localise/normal_demand.hpp), and when the frame is tracked. False: for every frame, while its
-  // features are looked for.
+  // True: the source runs only if a frame's lines do not determine its rotation
+  // (track/localise/normal_demand.hpp), when the frame is tracked. False: it runs for every frame, while
+  // features are extracted.
   bool on_demand = false;
 
   [[nodiscard]] NormalStatus fill(const ImageInput& input, const Camera<double>& camera, NormalField& field) {
@@ -29,7 +29,7 @@ struct NormalChoice {
   [[nodiscard]] bool any() const noexcept { return !std::holds_alternative<NoNormals>(source); }
   [[nodiscard]] bool from_depth() const noexcept { return std::holds_alternative<DepthNormals>(source); }
 
-  // Of the chosen source, which comes before their names: "depth.max_depth".
+  // Parameters of the chosen source. Their names begin with the source: "depth.max_depth".
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     if (auto* depth = std::get_if<DepthNormals>(&self.source)) visit_stage("depth.", *depth, visit);
@@ -39,7 +39,7 @@ struct NormalChoice {
 
   static constexpr int kColumns = 128;  // of the small picture of a network's normals, at most
 
-  // The normals of the last frame, to look at; empty where there is no source of them.
+  // A picture of the last frame's normals; empty if there is no source.
   [[nodiscard]] cv::Mat small_picture() const {
     if (const auto* network = std::get_if<OnnxNormals>(&source)) {
       if (network->manifest().kind != NetworkOutput::kNormals)
@@ -52,8 +52,8 @@ struct NormalChoice {
     return {};
   }
 
-  // Of the pixels of that picture, of this size; `camera` is that of the images. Where the source works on
-  // the lens's own pixels, its distortion is left out of account.
+  // The pinhole of that picture's pixels, for a picture of this size; `camera` is that of the images. If the
+  // source works on distorted pixels, the distortion is ignored.
   [[nodiscard]] Pinhole<double> small_pinhole(const Camera<double>& camera, cv::Size picture) const {
     if (const auto* network = std::get_if<OnnxNormals>(&source))
       if (network->manifest().kind == NetworkOutput::kNormals)
@@ -63,7 +63,7 @@ struct NormalChoice {
 };
 static_assert(NormalSource<NormalChoice> && Described<NormalChoice>);
 
-// The parameters of every source, with their defaults.
+// The parameters of all sources, with their defaults.
 inline void collect_normal_parameters(ParameterTable& table) {
   const DepthNormalsOptions depth;
   const FileNormalsOptions files;

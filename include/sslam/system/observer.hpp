@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Those who look on while a System works: a progress bar, a video, a window, a robot's planner.
+// Observers of a System at work: a progress bar, a video, a window, a robot's planner.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace sslam {
 
-// A frame that was just tracked, and the system as it stands then. Valid during the call.
+// A frame that was just tracked, and the state of the system after it. Valid during the call.
 struct FrameEvent {
   const FrameReport& report;
   const Extraction& input;
@@ -21,16 +21,16 @@ struct FrameEvent {
   const TrajectoryLog<double>& trajectory;
 };
 
-// Everything is called in the thread that calls System::track, after the frame is done, in the order of these
-// functions. What an observer throws comes out of track; the frame counts as tracked.
+// All functions are called in the thread that calls System::track, after the frame is done, in this order. An
+// exception in an observer leaves track(); the frame counts as tracked.
 class Observer {
  public:
   virtual ~Observer() = default;
-  virtual void frame_tracked(const FrameEvent&) {}  // each frame, lost ones and all
-  virtual void keyframe_made(const FrameEvent&) {}  // the frame has joined the map
-  virtual void loop_closed(const FrameEvent&) {}    // a place was recognised: the map has moved
-  virtual void maps_joined(const FrameEvent&) {}    // with a map that had been left
-  virtual void map_changed(const FrameEvent&) {}    // for any of these reasons, or because another map began
+  virtual void frame_tracked(const FrameEvent&) {}  // each frame, also lost ones
+  virtual void keyframe_made(const FrameEvent&) {}  // the frame has become a keyframe
+  virtual void loop_closed(const FrameEvent&) {}    // a place was recognised: the map has changed
+  virtual void maps_joined(const FrameEvent&) {}    // this map and one that had been left
+  virtual void map_changed(const FrameEvent&) {}    // by any of these events, or another map began
   virtual void warning(const std::string&) {}       // one line, for people
 };
 

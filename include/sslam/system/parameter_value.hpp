@@ -5,7 +5,7 @@
 
 namespace sslam {
 
-// What a parameter is to be, by its name, such as "rotation.squareness", in the unit that users see.
+// A new value of a parameter, by its name, such as "rotation.squareness", in the unit that users see.
 struct ParameterValue {
   std::string name;
   double value = 0;

@@ -13,7 +13,7 @@
 
 namespace sslam {
 
-// Those of a source of normals that is not plugged in may be set as well; nothing comes of it.
+// Parameters of a source of normals that is not in use may be set as well; they have no effect.
 template <class Frontend>
 [[nodiscard]] ParameterTable all_parameters(const Engine& engine, const Frontend& frontend) {
   ParameterTable table;
@@ -30,7 +30,7 @@ template <class Frontend>
   return all_parameters(*engine, ImageFrontend<NormalChoice>());
 }
 
-// One after the other; the first fault, or whether they all fit together.
+// Sets the values in order. Returns the first fault: of a value, or of all values together.
 [[nodiscard]] inline ParameterAnswer set_parameters(const std::vector<ParameterValue>& values,
                                                     ParameterTable& table) {
   for (const ParameterValue& value : values)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An engine of any pipeline: those of sslam, and yours.
+// An engine made from any pipeline: one of sslam's, or your own.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The named pipelines that a System can be made of. Those that come with sslam are compiled once, in src/; a
-// program of yours adds its own with add_preset (pipeline_engine.hpp makes an engine of a pipeline).
+// The named pipelines that a System can use. Those of sslam are compiled once, in src/; your program adds its
+// own with add_preset (pipeline_engine.hpp makes an engine from a pipeline).
 #pragma once
 
 #include <memory>
@@ -15,22 +15,22 @@ namespace sslam {
 struct Preset {
   std::string name;
   std::string meaning;
-  bool use_points = true;  // of the images; the rest is not even looked for
+  bool use_points = true;  // of the images; false: they are not extracted
   bool use_lines = true;
   bool use_normals = true;
-  bool new_points = true;  // false: no points but those that start the map
+  bool new_points = true;  // false: no new points after the first map
   std::unique_ptr<Engine> (*make)() = nullptr;
-  std::unique_ptr<Engine> (*make_live)() = nullptr;  // mapping in a thread of its own; null: it cannot
+  std::unique_ptr<Engine> (*make_live)() = nullptr;  // with mapping in its own thread; null: not supported
 };
 
-// In the order in which they were added; those that come with sslam first.
+// In the order in which they were added; those of sslam first.
 [[nodiscard]] const std::vector<Preset>& all_presets();
 
-// Before the first System that asks for it; not while another thread looks for one. Replaces one of the same
-// name.
+// Call it before the first System that uses the preset, and not while another thread searches presets.
+// Replaces a preset of the same name.
 void add_preset(Preset preset);
 
-// Throws Error, which lists the known names, when the name is not known.
+// Throws Error, which lists the known names, if the name is not known.
 [[nodiscard]] const Preset& find_preset(std::string_view name);
 
 }  // namespace sslam

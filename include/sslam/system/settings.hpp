@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a System is made of. Nothing here needs a file.
+// The settings of a System. None of them needs a file.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,22 @@ struct Settings {
   std::string preset = "structure";        // one of all_presets()
   std::vector<ParameterValue> parameters;  // those that differ from their defaults
   Camera<double> camera;                   // of the images, with their width and height
-  // Images with a longer side are shrunk to it, pixels: thresholds in pixels hold for cameras of any
-  // resolution. 0: none is.
+  // Longest side of an image, pixels: larger images are shrunk to it, so that thresholds in pixels hold for
+  // cameras of any resolution. 0: no limit.
   int longest_side = 960;
   NormalChoice normals;        // lines alone by default
   double depth_factor = 5000;  // value of one metre in a 16 bit depth image
-  std::uint64_t seed = 1;      // of everything random
-  // False: the same images give the same bits. True: mapping and loop closing have a thread of their own and
-  // tracking never waits for them; no two runs are alike.
+  std::uint64_t seed = 1;      // of all random samples
+  // False: the same images give the same results, bit for bit. True: mapping and loop closing have their own
+  // thread, and tracking never waits for them; no two runs are equal.
   bool live = false;
-  // finish() adjusts the whole map, and tracks every frame again in it; 100 kB of memory a frame. False:
-  // poses stay as they were when the next frame came.
+  // True: finish() adjusts the whole map and tracks every frame again in it; 100 kB of memory per frame.
+  // False: finish() does not change the poses.
   bool final_pass = true;
-  bool keep_pictures = false;  // observers see the images, not only what was found in them
+  bool keep_pictures = false;  // observers get the images, not only their features
 };
 
-// Settings that contradict themselves or each other; what() begins with the field's name.
+// Invalid or contradictory settings; what() begins with the field's name.
 struct SettingsError : Error {
   SettingsError(std::string of_field, const std::string& why)
       : Error(of_field + ": " + why), field(std::move(of_field)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether settings can be used: what they say by themselves.
+// Checks settings by themselves, without the presets.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace sslam {
 
-// Throws SettingsError. What the presets and parameters have to say, the system asks them.
+// Throws SettingsError. The system itself checks the preset and the parameters.
 inline void check_settings(const Settings& settings) {
   const Camera<double>& camera = settings.camera;
   const auto& k = camera.pinhole;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole of sslam behind one door: images in, poses and a map out.
+// All of sslam in one class: images in, poses and a map out.
 //
 //   sslam::Settings settings;
 //   settings.camera = ...;
@@ -28,16 +28,17 @@
 
 namespace sslam {
 
-// Where the camera was last, for other threads.
+// The latest pose of the camera, for other threads.
 struct LatestPose {
   double stamp = 0;
   State state = State::kInitialising;
   std::optional<SE3<double>> world_from_cam;  // empty: no pose
-  int world = 0;  // that the pose is in: poses of different worlds have nothing in common
+  int world = 0;  // number of the map that the pose is in; different maps have different coordinates
 };
 
-// A front end finds features in images: ImageFrontend, or one of your own with the same two verbs. One thread
-// calls track() and what changes the system; one, the same or another, calls extract(); any calls latest().
+// A front end finds features in images: ImageFrontend, or your own with the same two functions. Threads: one
+// calls track() and everything else that changes the system; one, the same or another, calls extract(); any
+// may call latest().
 template <class Frontend>
 class BasicSystem {
  public:
@@ -47,68 +48,69 @@ class BasicSystem {
   BasicSystem(const BasicSystem&) = delete;
   BasicSystem& operator=(const BasicSystem&) = delete;
 
-  // The image, 8 bit grey, BGR or BGRA, of the camera's size, at `stamp`, in seconds. Stamps grow. What
-  // cannot be used is said in FrameReport::input, and changes nothing.
+  // Tracks the image: 8 bit grey, BGR or BGRA, of the camera's size, taken at `stamp`, in seconds. Stamps
+  // increase. FrameReport::input says if the input cannot be used; then the system does not change.
   FrameReport track(const cv::Mat& image, double stamp);
   FrameReport track(const ImageRef& image, double stamp);
-  // With a depth image registered to it: 16 bit, in Settings::depth_factor, or float, in metres; 0: unknown.
-  // It serves the normals, where Settings::normals are those of depth.
+  // With a depth image registered to the image: 16 bit, in units of Settings::depth_factor, or float, in
+  // metres; 0: unknown. It is used for normals, if Settings::normals come from depth.
   FrameReport track(const cv::Mat& image, const cv::Mat& depth, double stamp);
   FrameReport track(const ImageInput& input);
 
-  // The two halves of track(): features of the next image may be looked for in one thread while the last
-  // image is tracked in another. Extractions are tracked in the order of their stamps; `out` may be used
-  // again, with its buffers.
+  // The two halves of track(): one thread may extract the features of the next image while another tracks the
+  // last one. Track extractions in the order of their stamps. `out` may be reused, with its buffers.
   void extract(const ImageInput& input, Extraction& out);
   FrameReport track(Extraction& extraction);
 
-  // No more images: takes in what mapping has still to do. Of several maps the one with most frames is kept.
-  // Called once; a second call changes nothing.
+  // Ends the input: waits for mapping and runs the final pass. Of several maps, keeps the one with most
+  // frames. A second call does nothing.
   bool finish();  // true if that closed a loop
 
   [[nodiscard]] const Map<double>& map() const { return engine_->map(); }
-  // One pose for each frame that has one in the map, ordered by stamp, by the map as it is now.
+  // The poses in the current map of all frames that have one, ordered by stamp.
   [[nodiscard]] io::Trajectory trajectory() const;
-  // Stamps of those that the final pass has bridged: turn measured, place between its neighbours'.
+  // Stamps of the frames that the final pass bridged: rotation measured, position interpolated.
   [[nodiscard]] std::vector<double> bridged() const { return engine_->trajectory().bridged(); }
   [[nodiscard]] LatestPose latest() const;
 
-  // The map as a file; throws Error. A map that is loaded is gone on in: frames are lost until one is
-  // recognised in it, and the map is never given up.
+  // Write and read the map as a file; both throw Error. The system continues in a loaded map: frames are lost
+  // until one is recognised in it, and the map is never given up.
   void save(const std::filesystem::path& path) const;
   void load(const std::filesystem::path& path);
   void resume(Map<double> map);
 
-  // What another system with the same settings needs to go on from here with the next image: the worlds, the
-  // camera's first, of which go_on() takes maps and logs. Its first frames are lost until one is recognised.
+  // The state from which another system with the same settings can continue with the next image: the worlds,
+  // the one with the camera first. go_on() takes their maps and logs; the first frames are then lost until
+  // one is recognised.
   [[nodiscard]] std::vector<const World<double>*> worlds() const { return engine_->worlds(); }
-  [[nodiscard]] int last_number() const { return engine_->last_number(); }  // of a world that was begun
+  [[nodiscard]] int last_number() const { return engine_->last_number(); }  // number of the newest world
   void go_on(std::vector<World<double>> known, int begun_last) {
     engine_->go_on(std::move(known), begun_last);
   }
 
-  // True: no keyframe is made and no map begun, left or joined: the camera is looked for in the map as it is.
+  // True: the camera is only localised in the map. No keyframe is made; no map is begun, left or joined.
   void localise_only(bool on) { engine_->localise_only(on); }
 
-  // Observers are called in the order in which they came, and outlive the system or are removed.
+  // Observers are called in the order in which they were added. Each must outlive the system or be removed.
   void add_observer(Observer& observer);
   void remove_observer(Observer& observer);
   void warn(const std::string& line);  // tells all observers
 
   [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
-  // Of the images as they are worked on: that of the settings, or a smaller one (Settings::longest_side).
+  // The camera of the images at their working size: that of the settings, or a smaller one
+  // (Settings::longest_side).
   [[nodiscard]] const Camera<double>& camera() const noexcept { return camera_; }
-  // Whether depth images are looked at.
+  // Whether depth images are used.
   [[nodiscard]] bool reads_depth() const noexcept { return reads_depth_; }
   [[nodiscard]] const Preset& preset() const noexcept { return preset_; }
   [[nodiscard]] const ParameterTable& parameters() const noexcept { return parameters_; }
   [[nodiscard]] int world() const { return engine_->world(); }
   [[nodiscard]] MapsApart apart() const { return engine_->apart(); }
   [[nodiscard]] int keyframes_not_made() const { return engine_->keyframes_not_made(); }
-  // Of a rolling shutter, as finish() was told it or has found it: seconds from the first row of an image to
-  // the last. 0: all rows are read at once, or nothing is known.
+  // Read-out time of a rolling shutter, given or estimated by finish(): seconds from the first row of an
+  // image to the last. 0: all rows are read at once, or the time is not known.
   [[nodiscard]] double read_out() const { return engine_->read_out(); }
-  [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }  // taken in so far
+  [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }  // number of frames so far
 
  private:
   void set_parameters();
