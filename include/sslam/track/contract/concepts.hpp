@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pipeline asks of each of its stages. A model of your own that satisfies a concept plugs in as it
-// is.
+// The interface of each stage of the pipeline, as a concept. Your own type that satisfies a concept can
+// replace the stage.
 #pragma once
 
 #include <concepts>
@@ -19,14 +19,14 @@
 
 namespace sslam {
 
-// Estimates the frame's rotation from structure alone, without drift. A copy that forgets looks at the frame
-// in another world.
+// Estimates the frame's rotation from structure alone, without drift. To search for the frame in another
+// world, a copy of the stage is used, after forget().
 template <class T, class S>
 concept RotationStage = std::copyable<T> &&
     requires(T stage, const Frame<S>& frame, const SO3<S>& predicted, const KnownAxes<S>& known) {
   { stage.rotate(frame, predicted, known) } -> std::same_as<RotationAnswer<S>>;
   stage.lose();    // the frame has no pose after all
-  stage.forget();  // the world is another one
+  stage.forget();  // the camera is in another world now
 };
 
 // Makes the first map from two frames.
@@ -51,7 +51,7 @@ concept FallbackStage = requires(T stage, const Map<S>& map, const RecentLandmar
   { stage.track_keyframe(map, keyframe, prior, frame) } -> std::same_as<PoseEstimate<S>>;
 };
 
-// Checks a pose against the local map, refines it, and counts what was seen in the map's landmarks.
+// Checks a pose against the local map and refines it. Counts in the map's landmarks how often they were seen.
 template <class T, class S>
 concept RefinementStage = requires(T stage, Map<S>& map, const RotationPrior<S>* prior,
                                    TrackedFrame<S>& frame) {
@@ -72,48 +72,48 @@ concept MappingStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame) {
   stage.begin(map, frame, S{});
 };
 
-// Finds places of one map in another.
+// Recognises places of one map in another.
 template <class T, class S>
 concept PlaceFinder = std::semiregular<T> &&
     requires(T finder, const Map<S>& here, const Map<S>& there, const Keyframe<S>& keyframe,
              const Loop<S>& loop, std::optional<PlaceMatch<S>>& first) {
-  // The place in `there` of a keyframe of `here`.
+  // Finds the place in `there` that a keyframe of `here` shows.
   { finder.find(here, KeyframeId{}, there) } -> std::same_as<std::optional<Loop<S>>>;
-  // Whether it bears out the one that was met first, which it replaces where they contradict each other.
+  // Whether `loop` confirms the match `first`. If they contradict each other, `loop` replaces it.
   { finder.confirmed(keyframe, there, loop, first) } -> std::same_as<bool>;
 };
 
-// Notices that a new keyframe shows a place of the map that it is not connected with, and mends the drift; or
-// joins two maps where a place of one was found in the other.
+// Detects that a new keyframe shows a place of the map that it shares no landmarks with, and corrects the
+// drift. Joins two maps if a place of one was found in the other.
 template <class T, class S>
 concept LoopStage = requires(T stage, const T idle, Map<S>& map, const Loop<S>& loop) {
   { stage.close(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
-  // After the last frame: keyframes that show a place without being connected with it, and an answer for
-  // each.
+  // After the last frame: missed() lists keyframes that show a place they share no landmarks with;
+  // close_on_trial() tries to close the loop of one.
   { stage.missed(std::as_const(map)) } -> std::same_as<std::vector<KeyframeId>>;
   { stage.close_on_trial(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
   { stage.merge(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
-  { idle.finder() } -> PlaceFinder<S>;  // of its own, for use while the stage is at work
-  stage.forget();                       // the map is another one
+  { idle.finder() } -> PlaceFinder<S>;  // a separate finder, for use while the stage works
+  stage.forget();                       // another map follows
 };
 
 // Decides when and where mapping and loop closing happen.
 template <class T, class S, class Mapping, class Loops>
 concept UpkeepStage = requires(T stage, Map<S>& map, TrackedFrame<S>& frame, Mapping& mapping, Loops& loops) {
-  // kNone: the map cannot take the frame now.
+  // Inserts a keyframe. kNone: the map cannot take it now.
   { stage.insert(map, frame, KeyframeId{}, S{}, mapping, loops) } -> std::same_as<KeyframeId>;
   { stage.close(map, KeyframeId{}, loops) } -> std::same_as<LoopAnswer<S>>;
-  // The map as it has become elsewhere; null where that is nothing new.
+  // Takes over changes made to the map elsewhere; null if there are none.
   { stage.renew(map) } -> std::same_as<const MapChange<S>*>;
   { stage.finish(map) } -> std::same_as<const MapChange<S>*>;
   stage.forget();
 };
 
-// Goes over the whole run once more when its last frame has been tracked.
+// Processes the whole run once more after its last frame.
 template <class T, class S>
 concept FinalStage = requires(T stage, const T& done, const TrackedFrame<S>& frame) {
   stage.keep(frame);
-  { done.full() } -> std::same_as<bool>;        // it keeps no further frame
+  { done.full() } -> std::same_as<bool>;        // true: it keeps no more frames
   { done.read_out() } -> std::same_as<double>;  // seconds of a rolling shutter; 0: none
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A keyframe that shows a place of the map, or of another one, which it is not connected with.
+// A loop: a keyframe shows a place of its map, or of another map, that it shares no landmarks with.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,14 @@ namespace sslam {
 
 template <Scalar S>
 struct Loop {
-  KeyframeId place = kNone;  // the keyframe that was met again
-  Sim3<S> cam_from_world;    // of the keyframe that closes the loop, in the world as it is around `place`
-  std::vector<LandmarkId> point_landmarks;  // of that place, one for each of its features or kNone
+  KeyframeId place = kNone;  // the keyframe that shows the same place
+  Sim3<S> cam_from_world;    // of the keyframe that closes the loop, in the world around `place`
+  // For each feature of the keyframe, its landmark at the place, or kNone.
+  std::vector<LandmarkId> point_landmarks;
   std::vector<LandmarkId> line_landmarks;
   int matches = 0;
 
-  // How the keyframe's world stands in that of the place.
+  // From the keyframe's world to that of the place.
   [[nodiscard]] Sim3<S> there_from_here(const SE3<S>& cam_from_here) const {
     return cam_from_world.inverse() * similarity(cam_from_here);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the loop stage answers: how the world moved, and how one map became part of another.
+// Results of the loop stage: how the world moved, and how one map became part of another.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@ namespace sslam {
 template <Scalar S>
 struct LoopAnswer {
   bool closed = false;
-  // By keyframe, how the world moved there; empty where nothing had drifted. Valid until the next call.
+  // For each keyframe, how the world moved there; empty if nothing had drifted. Valid until the next call.
   std::span<const Sim3<S>> new_from_old;
 
-  // What lengths at the keyframe are multiplied by.
+  // Factor of lengths at the keyframe.
   [[nodiscard]] S scale_at(KeyframeId keyframe) const {
     return new_from_old.empty() ? S(1) : new_from_old[static_cast<std::size_t>(keyframe)].scale;
   }
 };
 
-// How one map has become part of another.
+// How one map became part of another.
 template <Scalar S>
 struct MapJoint {
-  Sim3<S> moved;  // its world, in the other
+  Sim3<S> moved;  // from its world to that of the other map
   IdShift shift;
 };
 

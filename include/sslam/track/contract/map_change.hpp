@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has become of the map between two of its snapshots, for those who stand in it.
+// How the map changed between two of its snapshots. Moves poses and matches from the old map to the new one.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ struct MapChange {
   const Map<S>* now = nullptr;
   const std::vector<S>* scales_before = nullptr;  // as in MapSnapshot
   const std::vector<S>* scales_now = nullptr;
-  std::size_t known = 0;  // keyframes that the snapshot before had
+  std::size_t known = 0;  // number of keyframes in the snapshot before
   bool loop_closed = false;
 
-  // What lengths at the keyframe are multiplied by.
+  // Factor of lengths at the keyframe.
   [[nodiscard]] S scale_at(KeyframeId keyframe) const {
     return (*scales_now)[Map<S>::index(keyframe)] / (*scales_before)[Map<S>::index(keyframe)];
   }
 
-  // cam_from_world of what stands fast by the keyframe.
+  // The new cam_from_world of a camera that moves with the keyframe.
   [[nodiscard]] SE3<S> pose(KeyframeId keyframe, const SE3<S>& cam_from_world) const {
     SE3<S> cam_from_keyframe = cam_from_world * before->pose(keyframe).inverse();
     cam_from_keyframe.translation *= scale_at(keyframe);
@@ -35,7 +35,7 @@ struct MapChange {
     forget_gone(line_landmarks, now->lines, known);
   }
 
-  // A frame goes along; it loses the matches with landmarks that are gone.
+  // Moves a frame with its reference keyframe. Matches with erased landmarks are dropped.
   void carry(KeyframeId reference, TrackedFrame<S>& frame) const {
     frame.cam_from_world = pose(reference, frame.cam_from_world);
     forget_gone_matches(frame.point_landmarks, frame.line_landmarks);

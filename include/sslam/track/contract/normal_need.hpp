@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a frame's surface normals are looked for. A network costs more than all the rest of a frame, and where
-// lines give the rotation it changes nothing.
+// Why a frame's surface normals are computed. A network costs more than all the rest of a frame, and changes
+// nothing where lines determine the rotation.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@ namespace sslam {
 
 enum class NormalNeed : std::uint8_t {
   kNotNeeded,         // they cannot change the estimate
-  kEveryFrame,        // nobody asks for a reason
+  kEveryFrame,        // they are computed for all frames
   kNoManhattanFrame,  // the world has no Manhattan frame yet
   kNoAxis,            // the frame's lines show no axis of it
-  kAxisOpen,          // they show one, and the turn about that is open
-  kUncertain,         // they show the rotation, but not well enough for much longer
+  kAxisOpen,          // they show one axis only; the turn about it is not determined
+  kUncertain,         // they show the rotation, but not precisely enough
 };
 inline constexpr std::array kNormalNeeds{NormalNeed::kEveryFrame, NormalNeed::kNoManhattanFrame,
                                          NormalNeed::kNoAxis, NormalNeed::kAxisOpen, NormalNeed::kUncertain};

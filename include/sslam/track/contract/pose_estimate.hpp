@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stage answers that has looked for a frame's pose.
+// The result of a stage that estimates a frame's pose.
 #pragma once
 
 #include "sslam/track/contract/result.hpp"
@@ -11,8 +11,8 @@ struct PoseEstimate {
   Reason reason = Reason::kTooFewMatches;  // kFine: the pose may be used
   int point_inliers = 0;
   int line_inliers = 0;
-  Mat6<S> covariance = Mat6<S>::Zero();  // as in TrackResult; zero: not all six freedoms were solved for
-  S scene_depth = 0;                     // median, of what the pose was solved from; 0: not told
+  Mat6<S> covariance = Mat6<S>::Zero();  // as in TrackResult; zero: not in six degrees of freedom
+  S scene_depth = 0;                     // median depth of the landmarks it was solved from; 0: not known
 
   [[nodiscard]] bool ok() const noexcept { return reason == Reason::kFine; }
 };

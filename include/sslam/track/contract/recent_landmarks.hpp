@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a frame is compared with the map first.
+// The landmarks with which a frame is compared first.
 #pragma once
 
 #include <algorithm>

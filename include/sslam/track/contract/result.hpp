@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pipeline says about one frame: its pose if it has one, how it came about, and why not if not.
+// The result of the pipeline for one frame: its pose and how it was found, or the reason why it has none.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ enum class State : std::uint8_t {
 };
 
 enum class Reason : std::uint8_t {
-  kFine,               // nothing to say
+  kFine,               // no reason
   kTooFewFeatures,     // the image shows too little
-  kTooFewMatches,      // too little of the reference frame, or of the map, is seen again
-  kLowParallax,        // the camera has turned or stood still: no depth yet
+  kTooFewMatches,      // too few features of the reference frame, or of the map, are matched
+  kLowParallax,        // the camera has only turned or stood still: no depth yet
   kNoConsensus,        // the matches do not agree on one motion
   kNoManhattanFrame,   // no Manhattan evidence in this image
-  kManhattanRejected,  // the Manhattan pose does not agree with the map
-  kUncertainPose,      // enough matches, but they leave the pose too uncertain
+  kManhattanRejected,  // the Manhattan pose disagrees with the map
+  kUncertainPose,      // enough matches, but the pose is too uncertain
   kRelocalised,        // found again after a loss
 };
 
@@ -74,25 +74,26 @@ struct TrackResult {
   double stamp = 0;         // seconds
   State state = State::kInitialising;
   Reason reason = Reason::kFine;
-  SE3<S> cam_from_world;  // meaningful where has_pose()
-  // Of xi = (phi, rho) in exp(xi) * cam_from_world, in the camera's axes: rotation first, rad^2, then the
-  // place, units of the map squared. The map counts as exact: its drift is not in it. Meaningful where
+  SE3<S> cam_from_world;  // valid if has_pose()
+  // Of xi = (phi, rho) in exp(xi) * cam_from_world, in the camera's axes: rotation first, rad^2, then
+  // position, units of the map squared. The map counts as exact: its drift is not included. Valid if
   // has_covariance().
   Mat6<S> covariance = Mat6<S>::Zero();
-  int world = 0;  // that the pose is in: each map that is begun has its own, until maps are joined
+  int world = 0;  // number of the map that the pose is in; each new map has its own until maps are joined
   int point_inliers = 0;
   int line_inliers = 0;
   int axes_seen = 0;         // Manhattan axes with support: 3, 2, 1 or 0
   bool structure = false;    // the Manhattan rotation took part in the pose, and the pose agrees with it
-  int image_fixed = 0;       // features that were left out, since they never move in the image
-  bool keyframe = false;     // this frame joined the map
-  bool loop_closed = false;  // by this frame's place, known from before; live: since the last frame
-  bool maps_joined = false;  // by this frame's place, known from a map that had been left
+  int image_fixed = 0;       // number of features left out because they never move in the image
+  bool keyframe = false;     // the frame became a keyframe
+  bool loop_closed = false;  // by a place that this frame shows; live: since the last frame
+  bool maps_joined = false;  // by a place of a map that had been left
 
   [[nodiscard]] bool has_pose() const noexcept {
     return state == State::kManhattan || state == State::kFallback || state == State::kUncertain;
   }
-  // The pose was refined against the map. One that began the map was not, nor are those of NoRefinement.
+  // Whether the pose was refined against the map. Not so for a frame that begins a map, and with
+  // NoRefinement.
   [[nodiscard]] bool has_covariance() const noexcept { return covariance(0, 0) > 0; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A place for a clock in the pipeline. The library itself reads none: the null timer costs nothing.
+// The timing hook of the pipeline. The library itself reads no clock: the null timer costs nothing.
 #pragma once
 
 #include <concepts>

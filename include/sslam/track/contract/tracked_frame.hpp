@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A frame on its way through the tracker: features, an index over them, the landmarks they see, and a pose.
+// A frame in the tracker: features, an index over them, their landmarks, and a pose.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@ template <Scalar S>
 struct TrackedFrame {
   Frame<S> frame;
   FeatureGrid<S> grid;                      // over frame.points
-  std::vector<LandmarkId> point_landmarks;  // one for each frame.points, kNone where there is none
-  std::vector<LandmarkId> line_landmarks;   // one for each frame.lines
+  std::vector<LandmarkId> point_landmarks;  // one for each of frame.points; kNone: no match
+  std::vector<LandmarkId> line_landmarks;   // one for each of frame.lines
   std::vector<std::int8_t> line_axes;       // number of each line's Manhattan axis, or kNone
   std::optional<RotationObservation<S>> manhattan;
-  std::size_t manhattan_frame = 0;  // of the map's, that this rotation comes from
+  std::size_t manhattan_frame = 0;  // the one of the map that this rotation comes from
   SE3<S> cam_from_world;
 
-  // Takes over the features by swapping, so that both sides keep their buffers.
+  // Takes the features by swapping, so that both sides keep their buffers.
   void adopt(Frame<S>& source) {
     std::swap(frame, source);
     grid.build(frame.points, frame.width, frame.height);
@@ -32,7 +32,7 @@ struct TrackedFrame {
     forget_matches();
   }
 
-  // Takes over what the rotation stage says, with the lines' axes by their numbers in the world.
+  // Takes the result of the rotation stage; converts the lines' axes to their numbers in the world.
   void take(const RotationAnswer<S>& answer, const std::vector<SO3<S>>& world_from_manhattan) {
     forget_manhattan();
     if (!answer.seen) return;
@@ -54,7 +54,7 @@ struct TrackedFrame {
     line_landmarks.assign(frame.lines.size(), kNone);
   }
 
-  // Takes over the pose and the matches, not the features: from the keyframe that this frame has become, say.
+  // Takes the pose and the matches, not the features, for example from the keyframe that this frame became.
   template <class View>
   void read_back(const View& view) {
     cam_from_world = view.cam_from_world;
