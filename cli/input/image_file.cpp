@@ -121,7 +121,7 @@ void list_video_frames(io::Dataset& dataset, std::int64_t at_most) {
   tell_of_pixels(dataset, info);
   if (found.whole && found.frames < info.claimed)
     dataset.warnings.push_back(dataset.root.string() + ": claims " + std::to_string(info.claimed) +
-                               " frames, but has " + std::to_string(found.frames));
+                               " frames; only " + std::to_string(found.frames) + " can be read");
 }
 
 }  // namespace sslam::cli

@@ -31,7 +31,7 @@ struct Pinhole {
   }
 };
 
-// What the residuals ask of a camera.
+// The interface of a camera that the residuals need.
 template <class C, class S>
 concept CameraModel = requires(const C camera, const Vec3<S>& x, const Vec2<S>& pixel) {
   { camera.project(x) } -> std::convertible_to<Vec2<S>>;
@@ -60,7 +60,7 @@ struct RadTan {
   [[nodiscard]] Mat2<S> distort_jacobian(const Vec2<S>& m) const noexcept {
     const S x = m.x(), y = m.y(), r2 = m.squaredNorm();
     const S radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    const S slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // of radial: its gradient is slope times m
+    const S slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // the gradient of radial is slope times m
     Mat2<S> j;
     j(0, 0) = radial + slope * x * x + 2 * p1 * y + 6 * p2 * x;
     j(0, 1) = j(1, 0) = slope * x * y + 2 * p1 * x + 2 * p2 * y;
@@ -68,8 +68,9 @@ struct RadTan {
     return j;
   }
 
-  // Inverse of distort by Newton's method. False where no point of the lens's valid field, in which the image
-  // grows with the scene, is seen at `distorted`; m is then the nearest the search came.
+  // Inverse of distort by Newton's method. The valid field of the lens is where the distortion is monotonic.
+  // False if no point of the valid field is seen at `distorted`; m is then the nearest point that the search
+  // reached.
   [[nodiscard]] bool undistort(const Vec2<S>& distorted, Vec2<S>& m) const noexcept {
     m = distorted;
     if (is_identity()) return true;
@@ -86,7 +87,7 @@ struct RadTan {
                determinant;
         m -= step;
       } else {
-        // Out of the valid field: half way back.
+        // Outside the valid field: go half way back.
         step /= 2;
         m += step;
       }
@@ -101,8 +102,8 @@ struct Camera {
   RadTan<S> distortion;
   int width = 0, height = 0;  // pixels
 
-  // A pixel of the lens to the pixel of the ideal pinhole, and back. Beyond the lens's valid field, the
-  // nearest that RadTan::undistort comes.
+  // From a pixel of the lens to the pixel of the ideal pinhole, and back. Beyond the lens's valid field, the
+  // nearest point that RadTan::undistort reaches.
   [[nodiscard]] Vec2<S> undistort_pixel(const Vec2<S>& pixel) const noexcept {
     if (distortion.is_identity()) return pixel;
     Vec2<S> m;

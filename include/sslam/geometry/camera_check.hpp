@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a camera can be what took images of its size, tried before the first of them: a calibration of
-// another camera, resolution or unit tracks badly, and nothing else tells.
+// Checks whether a calibration is plausible for images of its size, before the first image. A calibration of
+// another camera, resolution or unit tracks badly, and nothing else would report it.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@
 namespace sslam {
 
 struct CameraCheck {
-  std::string fault;                // not empty: the camera cannot be right
-  std::vector<std::string> doubts;  // seldom right
+  std::string fault;                // not empty: the calibration cannot be right
+  std::vector<std::string> doubts;  // unusual values, which are seldom right
 };
 
-// Degrees that `pixels` across are in the view of a pinhole.
+// The angle in degrees that `pixels` span in the view of a pinhole.
 [[nodiscard]] inline double field_of_view(double focal, double pixels) noexcept {
   return degrees(2 * std::atan(pixels / (2 * focal)));
 }
 
-// Of a grid over the whole image, the share of pixels that show nothing in the lens's valid field: there the
-// distortion turns back.
+// The share of pixels, of a grid over the whole image, outside the lens's valid field: there the distortion
+// folds the image back.
 [[nodiscard]] inline double folded_share(const Camera<double>& camera) noexcept {
   constexpr int kSteps = 20;
   int folded = 0;
@@ -38,7 +38,7 @@ struct CameraCheck {
   return folded / static_cast<double>((kSteps + 1) * (kSteps + 1));
 }
 
-// The most by which the distortion moves a corner of the image away from the middle, as a factor.
+// The largest factor by which the distortion moves a corner of the image away from the middle.
 [[nodiscard]] inline double largest_stretch(const Camera<double>& camera) noexcept {
   double most = 1;
   for (const double x : {0.0, camera.width - 1.0})
@@ -51,7 +51,7 @@ struct CameraCheck {
   return most;
 }
 
-// Of a camera with its size.
+// Checks a camera that has its image size.
 [[nodiscard]] inline CameraCheck check_camera(const Camera<double>& camera) {
   const Pinhole<double>& p = camera.pinhole;
   char text[320];
@@ -61,19 +61,19 @@ struct CameraCheck {
   };
   CameraCheck check;
   const double across = field_of_view(p.fx, camera.width), down = field_of_view(p.fy, camera.height);
-  constexpr double kNarrowest = 3, kWidest = 150;  // degrees; no pinhole sees more in a usable image
+  constexpr double kNarrowest = 3, kWidest = 150;  // degrees; a usable image of a pinhole never shows more
   if (!(across > kNarrowest && across < kWidest && down > kNarrowest && down < kWidest)) {
     check.fault = told(
         "fx %g and fy %g give %dx%d images a field of view of %.3g by %.3g degrees; expected focal lengths "
         "in "
         "pixels of these images",
         p.fx, p.fy, camera.width, camera.height, across, down);
-    constexpr double kPixels = 0.05;  // of the width: fewer are no focal length of a camera in pixels
+    constexpr double kPixels = 0.05;  // share of the width; a focal length in pixels is never smaller
     if (p.fx < kPixels * camera.width)
       check.fault += p.fx < 2 ? ": are these parts of the image's size?" : ": are these millimetres?";
     return check;
   }
-  // Of the image's width and height, counted from its middle.
+  // Shares of the image's width and height, from its middle.
   const double off =
       std::max(std::abs((p.cx + 0.5) / camera.width - 0.5), std::abs((p.cy + 0.5) / camera.height - 0.5));
   constexpr double kFarOff = 0.25, kOff = 0.12;
@@ -110,7 +110,7 @@ struct CameraCheck {
                                 camera.width, camera.height));
   if (oblong > kOblong)
     check.doubts.push_back(told("fx %g and fy %g differ by a factor of %.2g", p.fx, p.fy, oblong));
-  constexpr double kStretched = 1.3;  // cushions of real lenses are weaker
+  constexpr double kStretched = 1.3;  // pincushion distortion of real lenses is weaker
   if (const double stretch = largest_stretch(camera); stretch > kStretched)
     check.doubts.push_back(told(
         "the distortion moves corners of the image outwards by a factor of %.2g: are its coefficients those "

@@ -14,7 +14,7 @@ struct Segment2 {
 
   [[nodiscard]] S length() const noexcept { return (end - start).norm(); }
   [[nodiscard]] Vec2<S> midpoint() const noexcept { return (start + end) / 2; }
-  // Unit; zero for a segment without length.
+  // Unit direction; zero for a segment without length.
   [[nodiscard]] Vec2<S> direction() const noexcept {
     const Vec2<S> d = end - start;
     const S norm = d.norm();
@@ -22,13 +22,14 @@ struct Segment2 {
   }
 };
 
-// The sine of the turn from a to b, positive from x towards y, times both lengths.
+// The sine of the angle from a to b, positive from x towards y, times both lengths.
 template <Scalar S>
 [[nodiscard]] S cross(const Vec2<S>& a, const Vec2<S>& b) noexcept {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Unit, along the largest spread of a scatter with the second moments xx, xy, yy, on the side of `towards`.
+// Unit direction of the largest spread of points with the second moments xx, xy, yy; the sign follows
+// `towards`.
 template <Scalar S>
 [[nodiscard]] Vec2<S> principal_axis(S xx, S xy, S yy, const Vec2<S>& towards) noexcept {
   const S angle = S(0.5) * std::atan2(2 * xy, xx - yy);

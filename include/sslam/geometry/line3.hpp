@@ -21,12 +21,12 @@ struct Line3 {
   Vec3<S> moment = Vec3<S>::Zero();  // X x direction for any point X on the line; its length is the distance
   Vec3<S> direction = Vec3<S>::UnitX();  // unit
 
-  // Two different points.
+  // The line through two different points.
   [[nodiscard]] static Line3 from_points(const Vec3<S>& p, const Vec3<S>& q) noexcept {
     const Vec3<S> d = (q - p).normalized();
     return {p.cross(d), d};
   }
-  // The meeting line of the planes n . X + offset = 0, which must not be parallel.
+  // The intersection of two planes n . X + offset = 0, which must not be parallel.
   [[nodiscard]] static Line3 from_planes(const Vec3<S>& n0, S offset0, const Vec3<S>& n1,
                                          S offset1) noexcept {
     const Vec3<S> d = n0.cross(n1);

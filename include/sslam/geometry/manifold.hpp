@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What solvers and numeric derivatives ask of a state: a tangent space and a retraction; and the flat state.
+// The interface of a state for solvers and numeric derivatives: a tangent space and a retraction. Also the
+// flat state, a vector.
 #pragma once
 
 #include <concepts>
@@ -11,13 +12,13 @@ namespace sslam {
 template <class X>
 using ScalarOf = typename X::ScalarType;
 
-// A state that is moved by tangent vectors of kDof entries.
+// A state with a retraction for tangent vectors of kDof entries.
 template <class X>
 concept Manifold = Scalar<ScalarOf<X>> && requires(const X x, const Vec<ScalarOf<X>, X::kDof>& delta) {
   { x.retract(delta) } -> std::convertible_to<X>;
 };
 
-// A vector as a state: moved by addition.
+// A vector as a state; its retraction is addition.
 template <Scalar S, int N>
 struct Euclidean {
   using ScalarType = S;

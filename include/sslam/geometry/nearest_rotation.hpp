@@ -9,8 +9,8 @@
 
 namespace sslam {
 
-// Writes `rotation` only on success. kDegenerate when the matrix has rank below 2: many rotations are
-// nearest.
+// Writes `rotation` only on success. kDegenerate if the rank of the matrix is below 2: then many rotations
+// are equally near.
 template <Scalar S>
 [[nodiscard]] Status nearest_rotation(const Mat3<S>& m, SO3<S>& rotation) noexcept {
   if (!m.allFinite()) return Status::kNotFinite;

@@ -22,8 +22,8 @@ struct Plane3 {
   // Signed distance of a point from the plane.
   [[nodiscard]] S offset(const Vec3<S>& x) const noexcept { return normal.dot(x) - distance; }
 
-  // How far along the ray, in lengths of `ray`, it meets the plane. False for a ray that runs within 3
-  // degrees of the plane, where a small error of either is a large one of the meeting point.
+  // The distance to the plane along the ray, in lengths of `ray`. False for a ray within 3 degrees of the
+  // plane, where a small error of either causes a large error of the intersection.
   [[nodiscard]] bool meet(const Vec3<S>& origin, const Vec3<S>& ray, S& along) const noexcept {
     const S rate = normal.dot(ray);
     if (!(std::abs(rate) > S(0.05) * ray.norm())) return false;

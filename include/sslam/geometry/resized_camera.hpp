@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera of images that are resized. Pixel (0, 0) is the middle of the first pixel.
+// The camera of resized images. (0, 0) is the centre of the first pixel.
 #pragma once
 
 #include "sslam/geometry/camera.hpp"
@@ -12,7 +12,7 @@ template <Scalar S>
   return {p.fx * sx, p.fy * sy, (p.cx + S(0.5)) * sx - S(0.5), (p.cy + S(0.5)) * sy - S(0.5)};
 }
 
-// For images of this size, in pixels. The camera's own size must not be 0.
+// The camera for images of this size, in pixels. The camera's own size must not be 0.
 template <Scalar S>
 [[nodiscard]] Camera<S> resized(const Camera<S>& camera, int width, int height) {
   Camera<S> out = camera;

@@ -35,7 +35,7 @@ struct SE3 {
   }
   [[nodiscard]] Vec3<S> operator*(const Vec3<S>& x) const noexcept { return rotation * x + translation; }
 
-  // Carries a tangent vector to the other side: T Exp(xi) = Exp(adjoint xi) T.
+  // Moves a tangent vector from the right to the left: T Exp(xi) = Exp(adjoint xi) T.
   [[nodiscard]] Mat6<S> adjoint() const noexcept {
     const Mat3<S> r = rotation.matrix();
     Mat6<S> m;

@@ -46,7 +46,7 @@ struct Sim3 {
   // Exp(xi) times this.
   [[nodiscard]] Sim3 retract(const Vec<S, 7>& xi) const noexcept { return exp(xi) * *this; }
 
-  // Takes a tangent from the right to the left: this * Exp(xi) = Exp(adjoint() * xi) * this.
+  // Moves a tangent vector from the right to the left: this * Exp(xi) = Exp(adjoint() * xi) * this.
   [[nodiscard]] Mat<S, 7, 7> adjoint() const noexcept {
     const Mat3<S> r = rotation.matrix();
     Mat<S, 7, 7> a = Mat<S, 7, 7>::Zero();
@@ -73,10 +73,9 @@ struct Sim3 {
   }
 
  private:
-  // Integral over s in [0, 1] of e^(s sigma) Exp(s phi): takes rho to the translation (Strasdat, thesis
-  // 2012, 2.5.3). By Gauss-Legendre quadrature with ten nodes, which is exact to rounding for every angle up
-  // to pi and scales up to a hundred, and has none of the cancellations that the closed form has at small
-  // angles or scales near 1.
+  // Integral over s in [0, 1] of e^(s sigma) Exp(s phi): maps rho to the translation (Strasdat, thesis 2012,
+  // 2.5.3). By Gauss-Legendre quadrature with ten nodes. It is exact to rounding for angles up to pi and
+  // scales up to a hundred, without the cancellations of the closed form at small angles or scales near 1.
   [[nodiscard]] static Mat3<S> drift(const Vec3<S>& phi, S sigma) noexcept {
     constexpr double kNode[] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
                                 0.8650633666889845, 0.9739065285171717};

@@ -30,7 +30,7 @@ class SO3 {
   // Rodrigues' formula; phi = angle times unit axis, radians.
   [[nodiscard]] static SO3 exp(const Vec3<S>& phi) noexcept {
     const S angle2 = phi.squaredNorm();
-    // sin(angle / 2) / angle and cos(angle / 2), by their series where the quotient would lose digits.
+    // sin(angle / 2) / angle and cos(angle / 2), by series where the quotient would lose digits.
     S scale = S(0.5) - angle2 / 48;
     S w = 1 - angle2 / 8 + angle2 * angle2 / 384;
     if (angle2 > S(1e-4)) {
@@ -54,7 +54,7 @@ class SO3 {
     return scale * v;
   }
 
-  // m must be a rotation matrix; see nearest_rotation for others.
+  // m must be a rotation matrix; for other matrices, see nearest_rotation.
   [[nodiscard]] static SO3 from_matrix(const Mat3<S>& m) noexcept {
     return SO3(Eigen::Quaternion<S>(m).normalized());
   }
@@ -83,14 +83,14 @@ class SO3 {
 };
 static_assert(Manifold<SO3<float>> && Manifold<SO3<double>>);
 
-// Angle of the rotation that takes one to the other, radians in [0, pi].
+// Angle between two rotations, radians in [0, pi].
 template <Scalar S>
 [[nodiscard]] S angle_between(const SO3<S>& a, const SO3<S>& b) noexcept {
   return (a * b.inverse()).log().norm();
 }
 
 // Exp(phi + d) = Exp(J d) Exp(phi) to first order. J is the integral of Exp(s phi) over s in [0, 1], so it
-// also takes rho to the translation of Exp(phi, rho) (Barfoot, State Estimation for Robotics, 2017,
+// also maps rho to the translation of Exp(phi, rho) (Barfoot, State Estimation for Robotics, 2017,
 // section 7.1).
 template <Scalar S>
 [[nodiscard]] Mat3<S> left_jacobian(const Vec3<S>& phi) noexcept {

@@ -9,10 +9,10 @@
 
 namespace sslam {
 
-// Two orthonormal columns that span the plane across the unit vector a; right-handed: b0 x b1 = a.
+// Two orthonormal columns that span the plane perpendicular to the unit vector a; right-handed: b0 x b1 = a.
 template <Scalar S>
 [[nodiscard]] Mat<S, 3, 2> tangent_basis(const Vec3<S>& a) noexcept {
-  // Duff et al., JCGT 2017: branch-free but for the sign.
+  // Duff et al., JCGT 2017: branch-free except for the sign.
   const S sign = std::copysign(S(1), a.z());
   const S c = -1 / (sign + a.z());
   const S d = a.x() * a.y() * c;
@@ -22,7 +22,7 @@ template <Scalar S>
   return basis;
 }
 
-// Logarithm and exponential of the sphere at `axis`: distances from the axis keep their length, radians.
+// Logarithm and exponential of the sphere at `axis`: they keep distances from the axis, in radians.
 template <Scalar S>
 struct TangentChart {
   Vec3<S> axis;

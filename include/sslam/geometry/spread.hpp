@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a quantity of three components spreads, by its covariance.
+// The spread of a quantity of three components, from its covariance.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -10,7 +10,7 @@
 
 namespace sslam {
 
-// Of a symmetric matrix, ascending; in closed form, so to some eight digits in double.
+// Eigenvalues of a symmetric matrix, ascending; in closed form, to about eight digits in double.
 template <Scalar S>
 [[nodiscard]] Vec3<S> symmetric_eigenvalues(const Mat3<S>& symmetric) {
   Eigen::SelfAdjointEigenSolver<Mat3<S>> solver;

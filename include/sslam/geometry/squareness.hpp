@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far what people build is off the axes of its Manhattan frame, one thing at a time: standard deviations,
+// How far single walls and edges of buildings deviate from their Manhattan axes: standard deviations,
 // radians.
 #pragma once
 
