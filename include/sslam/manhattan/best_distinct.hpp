@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The best few of many scored items, no two of them the same in the eyes of a predicate.
+// The best few of many scored items; a predicate decides which items count as the same.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class BestDistinct {
     S score = 0;
   };
 
-  // same(a, b): the two are to be counted once.
+  // same(a, b): true if the two count as one item.
   explicit BestDistinct(Same same) noexcept : same_(same) {}
 
   void offer(const Item& item, S score) noexcept {
@@ -46,7 +46,7 @@ class BestDistinct {
     return at;
   }
 
-  // 0 where there is no second one, or where it is worse than nothing.
+  // 0 if there is no second one, or its score is negative.
   [[nodiscard]] S second_best_score() const noexcept {
     S second = 0;
     for (std::size_t i = 0; i < entries_.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 24 rotations that map a cube to itself: a Manhattan frame is known up to these.
+// The 24 rotations that map a cube to itself. A Manhattan frame is determined up to these.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,14 +32,14 @@ template <Scalar S>
   return best;
 }
 
-// The same three axes, named and signed so that the rotation is closest to the prior.
+// The same three axes, with the names and signs that make the rotation closest to the prior.
 template <Scalar S>
 [[nodiscard]] SO3<S> closest_naming(const SO3<S>& cam_from_manhattan, const SO3<S>& prior) noexcept {
   const Mat3<S> manhattan_from_prior = (cam_from_manhattan.inverse() * prior).matrix();
   return SO3<S>::from_matrix(cam_from_manhattan.matrix() * nearest_cube_rotation(manhattan_from_prior));
 }
 
-// Angle between two frames whose axes have no names: the smallest over the 24 namings, radians.
+// Angle between two frames whose axes have no names: the smallest over the 24 ways to name them, radians.
 template <Scalar S>
 [[nodiscard]] S angle_between_frames(const SO3<S>& a, const SO3<S>& b) noexcept {
   return angle_between(closest_naming(a, b), b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a Manhattan rotation kernel is told and what it answers.
+// Options, prior and result of the Manhattan rotation kernels.
 #pragma once
 
 #include <algorithm>
@@ -14,34 +14,36 @@
 
 namespace sslam {
 
-// One set of values serves a network's normals (scatter 5-15 degrees) and normals from depth (1-2 degrees),
-// since the spread of the votes is measured in every frame. Angles in radians.
+// The same values suit a network's normals (scatter 5-15 degrees) and normals from depth (1-2 degrees), since
+// the spread of the votes is measured in every frame. Angles in radians.
 template <Scalar S>
 struct ManhattanOptions {
-  // Normals. Kernel widths are those of a Gaussian: 7 degrees mean a cone of 24, more than a prediction is
-  // off, and 2 degrees a cone of 7. In between the width follows the measured scatter of the votes.
+  // Normals. Kernel widths are those of a Gaussian: 7 degrees mean a cone of 24 degrees, more than the error
+  // of a prediction, and 2 degrees a cone of 7. In between the width follows the measured scatter of the
+  // votes.
   S widest_kernel = radians(S(7));
   S narrowest_kernel = radians(S(2));
   S kernel_per_scatter = S(1.5);
-  S min_normal_share = S(0.05);  // of all normals, for an axis to be seen by them
-  // How sure a plane's direction is: errors of its normals share this part of their variance, so that N of
-  // them count as 1 / 0.3 at most, and no number of votes removes the floor.
+  S min_normal_share = S(0.05);  // least share of all normals that shows an axis
+  // Uncertainty of a plane's direction. The errors of its normals have this share of their variance in
+  // common, so that any number of them counts as at most 1 / 0.3 independent normals. The floor remains
+  // however many votes there are.
   S normal_correlation = S(0.3);
   S normal_floor = kWallTilt<S>;
-  S normal_votes = 40;           // against segments, all normals of a view count as so many independent votes
-  std::size_t coarse_every = 8;  // while the kernel narrows, one block of normals in so many is read
+  S normal_votes = 40;           // compared with segments, all normals of a view count as this many votes
+  std::size_t coarse_every = 8;  // while the kernel narrows, only every n-th block of normals is read
 
-  // Segments. The floor says how well real edges keep to their axis; the gate is there at first and halves in
-  // every round. Both add to each segment's sigma.
+  // Segments. The floor is how far real edges deviate from their axis; the gate applies at first and halves
+  // in every round. Both are added to each segment's sigma.
   S line_floor = kEdgeTilt<S>;
   S widest_line_gate = radians(S(4));
-  S min_line_gain = S(8);  // for an axis to be seen by them: log-likelihood with it over that without
+  S min_line_gain = S(8);  // that shows an axis: log-likelihood of the segments with it over that without
 
   // The frame.
   S max_deviation = radians(S(10));  // standard deviation, by votes alone, up to which a rotation is observed
-  S max_jump = radians(S(45));       // a turn from the prior by more than this is a flip, not a motion
+  S max_jump = radians(S(45));       // a larger turn from the prior is a flip, not a motion
 
-  // For normals whose planes are each off by plane_sigma, as a network's are: radians, per component.
+  // For normals with an error common to each plane, as a network's: plane_sigma, radians, per component.
   [[nodiscard]] ManhattanOptions with_plane_sigma(S plane_sigma) const noexcept {
     ManhattanOptions options = *this;
     options.normal_floor = std::max(normal_floor, plane_sigma);
@@ -79,8 +81,8 @@ struct ManhattanOptions {
 };
 static_assert(Described<ManhattanOptions<double>>);
 
-// The predicted rotation, and how far it may be off: the covariance of its left perturbation, camera frame,
-// rad^2. It fills the directions that no vote observes.
+// The predicted rotation and the covariance of its left perturbation, camera frame, rad^2. The prior
+// determines the directions that no vote observes.
 template <Scalar S>
 struct ManhattanPrior {
   SO3<S> cam_from_manhattan;
@@ -92,11 +94,11 @@ struct AxisSupport {
   bool seen = false;  // its direction is known to max_deviation from its own votes
   bool by_normals = false;
   bool by_lines = false;
-  S normal_share = 0;    // share of all normals that belong to this axis, without the clutter under its cone
+  S normal_share = 0;    // share of all normals that belong to this axis, without the clutter in its cone
   S normal_scatter = 0;  // standard deviation of those normals about their mode, per component, radians
-  Vec2<S> mode = Vec2<S>::Zero();  // the normals' mode off axis k, along axes k+1 and k+2, radians
+  Vec2<S> mode = Vec2<S>::Zero();  // offset of the normals' mode from axis k, along axes k+1 and k+2, radians
   S mode_sigma = 0;                // standard deviation of the mode's direction, per component, radians
-  S lines = 0;      // number of segments, each counted by its probability to belong to this axis
+  S lines = 0;      // number of segments, each weighted by its probability to belong to this axis
   S line_gain = 0;  // log-likelihood of the segments with this axis over that without it
 };
 
@@ -110,7 +112,7 @@ struct ManhattanEstimate {
   S line_rms =
       0;  // residual of the segments on an axis over their sigma, root mean square (1 is as promised)
   S deviation = 0;       // standard deviation of the worst observed rotation by the votes alone, radians
-  S log_likelihood = 0;  // find_manhattan: of the votes, over that of votes without any common axes
+  S log_likelihood = 0;  // find_manhattan: of the votes, over that of votes without common axes
   S ambiguity = 0;  // find_manhattan: the same of the second best frame, as a share of the best; 0 if none
 };
 

@@ -14,8 +14,8 @@
 
 namespace sslam {
 
-// The frame whose first axis is `first` and whose second lies in the plane of both; false if they are
-// parallel.
+// The frame whose first axis is `first` and whose second axis lies in the plane of `first` and `second`;
+// false if they are parallel.
 template <Scalar S>
 [[nodiscard]] bool frame_from_two_axes(const Vec3<S>& first, const Vec3<S>& second, SO3<S>& frame) noexcept {
   const Vec3<S> third = first.cross(second);
@@ -40,7 +40,7 @@ template <Scalar S>
   return SO3<S>::from_quaternion(p * std::sin(a), p * std::cos(a), q * std::sin(b), q * std::cos(b));
 }
 
-// Room for the peaks of the normals and as many vanishing points.
+// Capacity for the peaks of the normals and as many vanishing points.
 inline constexpr std::size_t kMostDirections = 8;
 template <Scalar S>
 using DirectionList = InlineVector<Vec3<S>, 2 * kMostDirections>;
@@ -86,8 +86,9 @@ void find_peaks(const DirectionView<S>& normals, S width, S apart, Random& rando
   }
 }
 
-// Adds the points where most segments meet, of random pairs of segments: directions that many great circles
-// share, at least `apart` (radians) from each other. `floor` (radians) is added to each segment's sigma.
+// Adds vanishing points: intersections of random pairs of segments in which most segments meet. These are
+// directions that many great circles share, at least `apart` (radians) from each other. `floor` (radians) is
+// added to each segment's sigma.
 template <Scalar S>
 void find_vanishing_points(std::span<const LineVote<S>> lines, int pairs, S floor, S apart, Random& random,
                            DirectionList<S>& directions) noexcept {

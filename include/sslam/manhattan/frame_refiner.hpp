@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracking of the Manhattan rotation: normals find the basin and name the axes, segments fix the last
-// degrees.
+// Refinement of the Manhattan rotation. Normals give a start close enough to converge, and name the axes;
+// segments determine the last degrees.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -17,8 +17,8 @@ namespace sslam {
 
 namespace detail {
 
-// Everything that pulls on the rotation, linearised about one frame. Unknown: psi, a turn in the frame of the
-// axes (R <- R Exp(psi) = Exp(R psi) R), which moves axis k by d_i = psi_j, d_j = -psi_i.
+// All costs of the rotation, linearised about one frame. Unknown: psi, a turn in the frame of the axes (R <-
+// R Exp(psi) = Exp(R psi) R), which moves axis k by d_i = psi_j, d_j = -psi_i.
 template <Scalar S>
 struct FramePull {
   Mat3<S> H = Mat3<S>::Zero();
@@ -36,8 +36,8 @@ struct FramePull {
   }
 };
 
-// A mode as an observation of its axis. The Cauchy weight (scale 2 sigma) lets a plane that is not quite
-// Manhattan, or biased normals, give way to segments that agree with each other.
+// A mode as an observation of its axis. The Cauchy weight (scale 2 sigma) reduces the effect of a plane that
+// is not quite Manhattan, or of biased normals, if segments agree with each other.
 template <Scalar S>
 [[nodiscard]] AxisSystem<S> mode_system(const NormalMode<S>& mode, const Mat3<S>& cam_from_axes, int k,
                                         Vec2<S>& offset) noexcept {
@@ -71,7 +71,7 @@ class FrameRefiner {
         prior_information_(prior_information),
         options_(options) {}
 
-  // `shares` gets the final shares of the segments.
+  // Writes the final shares of the segments to `shares`.
   [[nodiscard]] ManhattanEstimate<S> run(LineShares<S>& shares) noexcept {
     constexpr int kMostRounds = 16;
     constexpr S kStill = S(2e-5);
@@ -90,16 +90,16 @@ class FrameRefiner {
   }
 
  private:
-  // Segments speak for an axis when they are likelier with it than by chance, and when their planes meet in
-  // it: pieces of one image line lie in one plane, through which a free axis can always be turned.
+  // Segments show an axis if they are likelier with it than by chance, and if their planes meet in it. Pieces
+  // of one image line do not: they lie in one plane, and a free axis can always be turned into it.
   [[nodiscard]] bool by_lines(std::size_t k) const noexcept {
     constexpr S kMeeting = radians(S(5));  // standard deviation of the direction in which the planes meet
     return round_.gain[k] >= options_.min_line_gain &&
            (modes_.modes[k].seen || weakest(round_.systems[k].H) * kMeeting * kMeeting >= S(1));
   }
 
-  // Linearises about rotation_ and returns the turn psi. While the gate is open every axis may pull: which
-  // ones deserve it shows only at the end.
+  // Linearises about rotation_ and returns the turn psi. While the gate is open, every axis takes part; which
+  // ones have enough support is known only at the end.
   [[nodiscard]] Vec3<S> step(S gate) noexcept {
     const Mat3<S> axes = rotation_.matrix();
     const S floor = std::sqrt(options_.line_floor * options_.line_floor + gate * gate);

@@ -12,11 +12,11 @@
 
 namespace sslam {
 
-// The mixture of the three kernels of the given width (radians, each a density on the sphere) and clutter,
-// averaged over the normals and multiplied by `votes`, the number of independent directions they are taken
-// for, or by how many there are, if those are fewer. Over directions spread evenly, exp of one vote's score
-// has mean 1, so exp(score) bounds the odds of chance (Markov). `gain`, if not null, gets what is lost
-// without each axis. With every > 1 only one block of normals in `every` is read.
+// The log-likelihood of the normals under a mixture of three kernels of the given width (radians, each a
+// density on the sphere) and clutter: the mean over the normals, times the number of independent votes, which
+// is `votes` or the number of normals if that is smaller. Over evenly spread directions, exp of one vote's
+// score has mean 1, so exp(score) bounds the odds of chance (Markov). `gain`, if not null, gets the loss
+// without each axis. With every > 1, only every n-th block of normals is read.
 template <Scalar S, Scalar V>
 [[nodiscard]] S score_normals(const DirectionView<V>& normals, const Mat3<S>& cam_from_axes, S width, S votes,
                               std::size_t every = 1, std::array<S, 3>* gain = nullptr) noexcept {
@@ -62,7 +62,8 @@ template <Scalar S, Scalar V>
   return score * scale;
 }
 
-// Segments with even shares of axes and clutter, each sigma widened by `floor` (radians).
+// The score of the segments, with equal shares of axes and clutter, and `floor` (radians) added to each
+// sigma.
 template <Scalar S>
 [[nodiscard]] S score_lines(std::span<const LineVote<S>> lines, const Mat3<S>& cam_from_axes,
                             S floor) noexcept {
@@ -75,7 +76,7 @@ template <Scalar S>
   return total;
 }
 
-// The same for one direction alone: how many segments may run along it, against any direction.
+// The same for one direction alone: segments along it or clutter, over clutter.
 template <Scalar S>
 [[nodiscard]] S score_direction(std::span<const LineVote<S>> lines, const Vec3<S>& direction,
                                 S floor) noexcept {

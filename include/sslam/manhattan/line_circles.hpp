@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Segments against three axes: who belongs to which axis (a mixture with clutter), and where each axis wants
-// to go.
+// Segments against three axes: which segment belongs to which axis (a mixture with clutter), and the cost of
+// moving each axis.
 #pragma once
 
 #include <array>
@@ -30,14 +30,14 @@ struct LineShares {
   [[nodiscard]] S clutter() const noexcept { return S(1) - axis[0] - axis[1] - axis[2]; }
 };
 
-// What one look at all segments finds.
+// The result of one pass over all segments.
 template <Scalar S>
 struct LineRound {
   std::array<AxisSystem<S>, 3> systems{};
   std::array<S, 3> count{};    // sum of the probabilities to belong to axis k
   std::array<S, 3> gain{};     // log-likelihood of all segments over that with axis k counted as clutter
   std::array<S, 3> squared{};  // sum of probability times squared residual over its variance
-  S log_likelihood = 0;        // over that of clutter alone
+  S log_likelihood = 0;        // of all segments, over that of clutter alone
 };
 
 namespace detail {
@@ -48,9 +48,9 @@ struct CircleRatio {
   S ratio;             // likelihood of the axis over that of clutter
 };
 
-// Through a given pixel clutter has any direction with equal probability, density 1 / pi; a segment of axis a
-// has the turn psi = r / sin(alpha), alpha the angle from the ray to a, with r = n . a normal of variance
-// sigma^2 sin^2(alpha) + floor^2. `along` is the cosine of alpha.
+// Through a given pixel, clutter has any direction with equal probability, density 1 / pi. A segment of axis
+// a has the turn psi = r / sin(alpha), where alpha is the angle from the ray to a, and r = n . a is normally
+// distributed with variance sigma^2 sin^2(alpha) + floor^2. `along` is the cosine of alpha.
 template <Scalar S>
 [[nodiscard]] CircleRatio<S> circle_ratio(S sigma, S residual, S along, S floor) noexcept {
   const S sine2 = std::max(S(1) - along * along, S(0));
@@ -109,7 +109,7 @@ template <Scalar S>
   return round;
 }
 
-// The M-step of the shares. Two imaginary clutter segments keep a handful of segments from being all inliers.
+// The M-step of the shares. Two imaginary clutter segments keep a few segments from all becoming inliers.
 template <Scalar S>
 [[nodiscard]] LineShares<S> update_shares(const LineRound<S>& round, std::size_t lines) noexcept {
   LineShares<S> shares;
@@ -118,8 +118,8 @@ template <Scalar S>
   return shares;
 }
 
-// Writes for each segment the axis (0, 1, 2) it belongs to with more than even odds, or -1. `usable` tells
-// which axes may be named. Writes min(lines, axis_of) entries.
+// Writes for each segment the axis (0, 1, 2) that it belongs to with a probability above one half, or -1.
+// Only axes in `usable_axes` are written. Writes min(lines, axis_of) entries.
 template <Scalar S>
 void assign_lines(std::span<const LineVote<S>> lines, const Mat3<S>& cam_from_axes,
                   const LineShares<S>& shares, S floor, const std::array<bool, 3>& usable_axes,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the Manhattan frames of a world one is.
+// Finds a Manhattan frame among those of a world.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace sslam {
 
-// The Manhattan frame closest to one that stands in the world like this, if that is within max_turn, radians.
+// The Manhattan frame closest to this orientation in the world, if it is within max_turn, radians.
 template <Scalar S>
 [[nodiscard]] std::optional<std::size_t> nearest_frame(const std::vector<SO3<S>>& world_from_manhattan,
                                                        const SO3<S>& wanted, S max_turn) {

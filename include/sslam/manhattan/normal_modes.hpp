@@ -13,10 +13,10 @@
 
 namespace sslam {
 
-// A plane direction found among the normals. Errors of one plane's normals are correlated, so that N of them
-// with scatter s have a mean of variance s^2 (1/N + rho) (Kish's design effect for clusters): sigma stops
-// falling at s sqrt(rho) however many normals a plane has, and ten thousand of them do not drown a long
-// segment.
+// A plane direction found among the normals. Errors of one plane's normals are correlated, so the mean of N
+// of them with scatter s has the variance s^2 (1/N + rho) (Kish's design effect for clusters). So sigma does
+// not fall below s sqrt(rho), however many normals a plane has, and ten thousand normals do not outweigh a
+// long segment.
 template <Scalar S>
 struct NormalMode {
   bool seen = false;
@@ -28,23 +28,24 @@ struct NormalMode {
 
 template <Scalar S>
 struct NormalModes {
-  SO3<S> cam_from_axes;  // the rotation that joins the modes; the start where none is seen
+  SO3<S> cam_from_axes;  // the rotation that fits the modes; the start if none is seen
   std::array<NormalMode<S>, 3> modes{};
   S width = 0;  // last kernel width, radians
 };
 
 namespace detail {
 
-// A peak stands out of the clutter when the kernel sees its spread: flat clutter has no finite one.
+// Whether a peak stands out of the clutter: its spread is finite under the kernel; that of flat clutter is
+// not.
 template <Scalar S>
 [[nodiscard]] bool is_peak(const AxisMoments<S>& axis, S width, S total) noexcept {
   constexpr S kMostGain = 12;                       // scatter at most 3.3 kernel widths
-  constexpr S kDensityRatio = 2;                    // over directions spread evenly on the sphere
+  constexpr S kDensityRatio = 2;                    // over directions that are spread evenly on the sphere
   const S chance = S(1.2) * width * width * total;  // the kernel's integral over that of a half sphere
   return axis.mass > kDensityRatio * chance && kernel_gain(axis.variance, width) < kMostGain;
 }
 
-// Where the modes pull the axes, as a rotation in the frame of the axes. Axes without a peak stay with the
+// The rotation that moves the axes to their modes, in the frame of the axes. Axes without a peak stay at the
 // prior.
 template <Scalar S>
 [[nodiscard]] bool joint_step(const FrameMoments<S>& moments, S width, S total,
@@ -75,7 +76,7 @@ template <Scalar S>
     squares += axis.mass * axis.variance * kernel_gain(axis.variance, width);
   }
   if (!(mass > S(0))) return width;
-  constexpr S kSlowest = S(0.6);  // narrowing faster could cut a mode off before the axis has reached it
+  constexpr S kSlowest = S(0.6);  // a faster narrowing could lose a mode before the axis has reached it
   const S wanted = options.kernel_per_scatter * std::sqrt(squares / mass);
   return std::min(width, std::max({wanted, options.narrowest_kernel, kSlowest * width}));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracking of the Manhattan rotation: normals find the basin and name the axes, segments fix the last
-// degrees.
+// Tracking of the Manhattan rotation. Normals give a start close enough to converge, and name the axes;
+// segments determine the last degrees.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,7 @@ struct FrameVotes {
   }
 };
 
-// From one start to the nearest frame; the start may differ from the prior.
+// From a start, which may differ from the prior, to the nearest frame.
 template <Scalar S, Scalar V>
 [[nodiscard]] ManhattanEstimate<S> climb(const FrameVotes<S, V>& votes, const SO3<S>& start,
                                          const ManhattanPrior<S>& prior, const Mat3<S>& prior_information,
@@ -50,7 +50,8 @@ template <Scalar S, Scalar V>
   ManhattanEstimate<S> estimate = refine(shares);
   if (votes.lines.empty() || !(angle_between(modes.cam_from_axes, start) > options.widest_line_gate))
     return estimate;
-  // The normals have led farther away than segments reach: they are off where segments agree at the start.
+  // The normals led farther away than segments can correct. They are wrong if the segments agree at the
+  // start.
   modes.cam_from_axes = start;
   LineShares<S> shares_at_start;
   const ManhattanEstimate<S> at_start = refine(shares_at_start);
@@ -87,9 +88,9 @@ void assign_lines_of(const ManhattanEstimate<S>& estimate, std::span<const LineV
 // kOk: every rotation is observed by votes. kDegenerate: only some are (one axis); the rest keeps the prior's
 // value and covariance. kTooFew: no votes. kNoConsensus: no axis stands out, or the votes would turn the
 // prior by more than max_jump. kNotFinite: a NaN or infinity in votes or prior, a direction longer than 2 (it
-// should be 1), or a prior whose covariance has no inverse. With the last three the answer is the prior (the
-// identity where that is not finite). Entry i of `axis_of`, if it is not empty, becomes the axis (0, 1, 2) of
-// segment i, or -1.
+// should be 1), or a prior whose covariance has no inverse. With the last three, the result is the prior (the
+// identity if the prior is not finite). Entry i of `axis_of`, if it is not empty, becomes the axis (0, 1, 2)
+// of segment i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> track_manhattan(const NormalView<V>& normals,
                                                    std::span<const LineVote<S>> lines,

@@ -14,16 +14,16 @@ namespace sslam {
 
 template <Scalar S>
 struct SearchOptions {
-  ManhattanOptions<S> rotation;       // of the refinement of each candidate
+  ManhattanOptions<S> rotation;       // for the refinement of each candidate
   S rank_width = radians(S(7));       // kernel width of normals while candidates are compared
-  S rank_line_floor = radians(S(1));  // added to the segments' sigma meanwhile
-  int pairs = 600;                    // random pairs of segments whose meeting point is tried
+  S rank_line_floor = radians(S(1));  // added to the segments' sigma at that stage
+  int pairs = 600;                    // random pairs of segments whose intersection is tried
   S peaks_apart = radians(S(20));     // between two peaks of the normals
   S points_apart = radians(S(8));     // between two vanishing points
-  S distinct = radians(S(6));         // frames closer than this (over the 24 namings) are the same
+  S distinct = radians(S(6));         // frames closer than this (over the 24 ways to name axes) are the same
 
-  // What makes a frame believed. Log-likelihoods are over those of votes without structure.
-  S min_surprise = 7;        // of the whole frame, beyond the best that chance would find
+  // Conditions for accepting a frame. Log-likelihoods are relative to votes without structure.
+  S min_surprise = 7;        // of the whole frame, above the best that chance would find
   S min_axis_gain = 8;       // of an axis over clutter in its place; two axes must have it
   S max_skew = 2;            // of a plane's direction off its axis, in its standard deviations
   S max_ambiguity = S(0.9);  // of the next best frame that differs, as a share of the best
@@ -47,7 +47,7 @@ struct SearchOptions {
           "of a plane's direction off its axis, standard deviations");
     visit("max_ambiguity", self.max_ambiguity, Unit::kShare, 0, 1,
           "of the next best frame as a share of the best");
-    // `rotation` serves every frame: who searches lists it under its own names.
+    // `rotation` serves every frame: the stage that searches lists its parameters under its own names.
   }
 };
 static_assert(Described<SearchOptions<double>>);
@@ -96,13 +96,14 @@ template <Scalar S, std::size_t Capacity>
   return chosen;
 }
 
-// A refined candidate with the log-likelihood of normals (at the width they ask for) and segments.
+// A refined candidate with the log-likelihood of normals (at the kernel width that suits their scatter) and
+// segments.
 template <Scalar S>
 struct ScoredFrame {
   ManhattanEstimate<S> estimate;
   LineShares<S> shares;
   S score = 0;
-  std::array<S, 3> gain{};  // lost without each axis
+  std::array<S, 3> gain{};  // loss without each axis
 };
 
 template <Scalar S, Scalar V>
@@ -128,12 +129,12 @@ template <Scalar S, Scalar V>
   return found;
 }
 
-// Whether the best frame may be believed.
+// Whether the best frame is accepted.
 template <Scalar S>
 [[nodiscard]] Status judge(const ScoredFrame<S>& best, const SearchOptions<S>& options) noexcept {
   if (!usable(best.estimate.status)) return best.estimate.status;
-  // Frames that can be told apart: the volume of SO(3) up to the 24 namings over that of the answer's
-  // uncertainty.
+  // Number of distinguishable frames: the volume of SO(3), up to the 24 ways to name the axes, over that of
+  // the result's uncertainty.
   constexpr S kVolume = S(3.29);   // 8 pi^2 / 24, rad^3
   constexpr S kNormal = S(15.75);  // (2 pi)^(3/2)
   const S spread = kNormal * std::sqrt(std::max(best.estimate.covariance.determinant(), S(1e-30)));
@@ -156,12 +157,12 @@ template <Scalar S>
 //
 // A frame is accepted against chance: the likelihood ratio of votes without structure has mean 1 for any one
 // frame, so chance finds the log-likelihood s among N distinct frames with odds N exp(-s) at most (Markov); N
-// is the volume of SO(3), up to the 24 namings, over that of the answer's covariance. Two planes that happen
-// to meet at a right angle, within what their normals can tell, are a frame like any other.
+// is the volume of SO(3), up to the 24 ways to name the axes, over that of the result's covariance. Two
+// planes that happen to meet at a right angle, within the precision of their normals, count as a frame.
 //
 // kTooFew: no votes. kDegenerate: at most one axis stands out, as with a single plane in view. kNoConsensus:
-// several directions do but no frame does, or two that differ do equally well (see ambiguity). kNotFinite: as
-// in track_manhattan. With these the rotation is a guess, not to be used. Entry i of `axis_of`, if it is not
+// several directions stand out but no frame does, or two different frames do equally well (see ambiguity).
+// kNotFinite: as in track_manhattan. With these, do not use the rotation. Entry i of `axis_of`, if it is not
 // empty, becomes the axis of segment i, or -1.
 template <Scalar S, Scalar V = S>
 [[nodiscard]] ManhattanEstimate<S> find_manhattan(const NormalView<V>& normals,

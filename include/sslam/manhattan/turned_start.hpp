@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where else a frame could start when the votes near the prior leave it loose: turns about the axes it has.
+// Other starts for a frame that the votes near the prior do not determine: turns about the axes that are
+// seen.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +13,10 @@
 
 namespace sslam {
 
-// While a camera sees one axis it may turn about it unobserved, and when the next wall comes into view it is
-// too far off for a local search. This looks at turns of up to 40 degrees about each axis that is seen (about
-// all three if none is), and returns the one with the best posterior: likelihood of all votes times the
-// prior.
+// While a camera sees one axis only, turns about it are not observed. When the next wall comes into view, the
+// rotation may be too far off for a local search. This tries turns of up to 40 degrees about each axis that
+// is seen (about all three if none is), and returns the one with the best posterior: likelihood of all votes
+// times the prior.
 template <Scalar S, Scalar V>
 [[nodiscard]] SO3<S> best_turned_start(const DirectionView<V>& normals, std::span<const LineVote<S>> lines,
                                        const ManhattanEstimate<S>& loose, const ManhattanPrior<S>& prior,
@@ -23,7 +24,7 @@ template <Scalar S, Scalar V>
                                        const ManhattanOptions<S>& options) noexcept {
   constexpr int kTurns = 5;
   constexpr S kTurn = radians(S(8));
-  constexpr std::size_t kEnough = 4096;  // normals to score one start with
+  constexpr std::size_t kEnough = 4096;  // number of normals for the score of one start
   const std::size_t every = 1 + normals.size / kEnough;
   const auto posterior = [&](const SO3<S>& frame) {
     const Vec3<S> off = (frame * prior.cam_from_manhattan.inverse()).log();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What votes for a Manhattan frame: surface normals, which are points on the sphere, and line segments, whose
-// directions are known only to lie on a great circle.
+// The votes for a Manhattan frame: surface normals, which are points on the sphere, and line segments, whose
+// directions are only known to lie on a great circle.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace sslam {
 template <Scalar V>
 using NormalView = DirectionView<V>;
 
-// A segment's direction d satisfies plane_normal . d = 0. What the image measures is the turn of that plane
-// about the ray to the middle of the segment, so sigma is the standard deviation of this turn, radians.
+// A segment's direction d satisfies plane_normal . d = 0. The image measures the turn of that plane about the
+// ray to the middle of the segment; sigma is the standard deviation of this turn, radians.
 template <Scalar S>
 struct LineVote {
   Vec3<S> plane_normal;  // unit normal of the plane through the camera centre and the segment, camera frame
@@ -25,8 +25,8 @@ struct LineVote {
   Vec3<S> ray;           // unit ray to the middle of the segment; plane_normal . ray = 0
 };
 
-// The vote of a segment whose endpoints are known to pixel_sigma across the segment: with the rays of its
-// ends an angle beta apart, the plane turns by sigma = pixel_sigma / (f sqrt(2) sin(beta / 2)).
+// The vote of a segment whose endpoints have a standard deviation of pixel_sigma across the segment. If the
+// rays of its ends are an angle beta apart, the plane has sigma = pixel_sigma / (f sqrt(2) sin(beta / 2)).
 template <Scalar S>
 [[nodiscard]] LineVote<S> line_vote(const Segment2<S>& segment, const Pinhole<S>& pinhole,
                                     S pixel_sigma) noexcept {
