@@ -206,7 +206,7 @@ void take_view(CameraChoice& choice, double wanted) {
   if (!choice.wide) {
     if (wanted > 0)
       choice.notes.push_back("--undistort-fov is for wide lenses, and " + choice.source +
-                             " has none: left out");
+                             " has none: ignored");
     return;
   }
   WideLens& lens = *choice.wide;
