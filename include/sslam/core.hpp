@@ -229,6 +229,7 @@
 #include "sslam/track/worlds/final_pass.hpp"
 #include "sslam/track/worlds/frame_motion.hpp"
 #include "sslam/track/worlds/gap_bridge.hpp"
+#include "sslam/track/worlds/map_extension.hpp"
 #include "sslam/track/worlds/map_trial.hpp"
 #include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/no_final_pass.hpp"

@@ -91,7 +91,7 @@ class Pipeline : public WorldKeeping<S, StageTypes> {
     World<S>* largest = atlas.largest();
     if (largest != nullptr && Atlas<S>::smaller(world_, *largest)) Worlds::change_places(*largest);
     if (keep_frames && !localise_only) loop_closed = Worlds::prepare_final_pass() || loop_closed;
-    final_pass.run(world_.map, fallback, refinement, relocalisation, world_.log);
+    final_pass.run(world_.map, *this, world_.log);
     return loop_closed;
   }
 

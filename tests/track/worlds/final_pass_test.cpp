@@ -50,7 +50,7 @@ TEST_CASE("The final pass gives a pose to frames that had none, and keeps the ot
   const std::size_t known = log.entries().size();
   FinalPass<double> pass;
   for (std::size_t k = 0; k < simulation.size(); ++k) pass.keep(unmatched(simulation.frame(k)));
-  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
+  pass.run(map, pipeline, log);
   REQUIRE(log.entries().size() == known + 3);
   for (std::size_t k = 0; k < log.entries().size(); ++k)
     REQUIRE(log.entries()[k].index == static_cast<std::int64_t>(k) + log.entries()[0].index);
@@ -73,7 +73,7 @@ TEST_CASE("The final pass recognises frames from which no neighbour with a pose 
     const bool dark = k >= kCut && k < kCut + kDark;
     pass.keep(unmatched(dark ? simulation.dark_frame(k) : simulation.frame(k)));
   }
-  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
+  pass.run(map, pipeline, log);
   REQUIRE(log.entries().size() == known + kCut);
   for (const auto& entry : log.entries()) {
     CHECK((entry.index < kCut || entry.index >= kCut + kDark));
@@ -114,9 +114,9 @@ TEST_CASE("An empty map, or a run without a frame, has a final pass without effe
   TrajectoryLog<double> log;
   presets::Structure<double> pipeline;
   FinalPass<double> pass;
-  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
+  pass.run(map, pipeline, log);
   pass.keep(unmatched({}));
-  pass.run(map, pipeline.fallback, pipeline.refinement, pipeline.relocalisation, log);
+  pass.run(map, pipeline, log);
   CHECK(log.entries().empty());
 }
 

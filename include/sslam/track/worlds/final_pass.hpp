@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The final pass, after the last frame: features that see one landmark are aligned, the whole map is adjusted
 // at once, then every frame is tracked again in it. A frame keeps the errors of the young map that it was
-// tracked in otherwise, and one that had no pose may get one, from its neighbours or by the place that it
-// shows. Of a rolling shutter, whose read-out time is told or found, features are moved to the moment of the
-// middle row, by the motion that the trajectory tells.
+// tracked in otherwise, and one that had no pose may get one: from its neighbours, by the place that it
+// shows, or by what it adds to the map. Of a rolling shutter, whose read-out time is told or found, features
+// are moved to the moment of the middle row, by the motion that the trajectory tells.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 #include "sslam/map/map_adjustment.hpp"
 #include "sslam/map/seen_patches.hpp"
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/worlds/gap_bridge.hpp"
+#include "sslam/track/worlds/map_extension.hpp"
 #include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/shutter_straightening.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
@@ -84,10 +84,10 @@ class FinalPass {
   // No further frame is kept, so that none will be tracked again.
   [[nodiscard]] bool full() const noexcept { return frames_.size() >= options.max_frames; }
 
-  // The map has its last keyframe. Poses go into the log; the frames are forgotten.
-  template <class Fallback, class Refinement>
-  void run(Map<S>& map, Fallback& fallback, Refinement& refinement, Relocalisation<S>& relocalisation,
-           TrajectoryLog<S>& log) {
+  // The map has its last keyframe from the run; the frames without a pose may add more. `stages`: the
+  // pipeline's. Poses go into the log; the frames are forgotten.
+  template <class Stages>
+  void run(Map<S>& map, Stages& stages, TrajectoryLog<S>& log) {
     shutter.begin(options.read_out);
     if (!map.empty() && !frames_.empty()) {
       log.sort();
@@ -96,7 +96,7 @@ class FinalPass {
         last_.point_landmarks.clear();
         last_.line_landmarks.clear();
         previous_.reset();
-        for (std::size_t i = 0; i < frames_.size(); ++i) track(i, 1, map, fallback, refinement, log);
+        for (std::size_t i = 0; i < frames_.size(); ++i) track(i, 1, map, stages, log);
       };
       if (shutter.read_out() == 0) {
         adjustment.optimise_all(map);
@@ -107,8 +107,12 @@ class FinalPass {
         track_all();
       previous_.reset();
       for (std::size_t i = frames_.size(); i-- > 0;)
-        if (log.find(frames_[i].index) == nullptr) track(i, -1, map, fallback, refinement, log);
-      find_lost(map, fallback, refinement, relocalisation, log);
+        if (log.find(frames_[i].index) == nullptr) track(i, -1, map, stages, log);
+      find_lost(map, stages, log);
+      extension_.run(
+          frames_, options.max_misses,
+          [&](std::size_t i, KeyframeId reference) { return straightened(i, map, reference); }, map, stages,
+          log);
       bridge.run(frames_, map, log);
     }
     frames_.clear();
@@ -128,9 +132,8 @@ class FinalPass {
     SE3<S> cam_from_world;
   };
 
-  template <class Fallback, class Refinement>
-  void track(std::size_t i, int step, Map<S>& map, Fallback& fallback, Refinement& refinement,
-             TrajectoryLog<S>& log) {
+  template <class Stages>
+  void track(std::size_t i, int step, Map<S>& map, Stages& stages, TrajectoryLog<S>& log) {
     if (step < 0) look_up(i + 1, map, log);  // it may have been passed without being tracked
     if (look_up(i, map, log) && map.keyframes[map.index(previous_->reference)].made_of(frames_[i])) return;
     if (!previous_ || distance(i, previous_->position) > static_cast<std::size_t>(options.max_misses) + 1)
@@ -139,10 +142,10 @@ class FinalPass {
     take_features(i, map);
     frame_.cam_from_world = previous_->cam_from_world;
     around_.read_back(map.keyframes[map.index(reference)]);
-    const PoseEstimate<S> estimate =
-        neighbours_.track(step > 0 ? last_ : around_, around_, map, fallback, refinement, frame_);
+    const PoseEstimate<S> estimate = neighbours_.track(step > 0 ? last_ : around_, around_, map,
+                                                       stages.fallback, stages.refinement, frame_);
     if (estimate.ok()) {
-      align(map, refinement);
+      align(map, stages.refinement);
       place(i, reference, map, log);
     }
     if (!shutter.straightens(i)) std::swap(frames_[i], frame_.frame);
@@ -166,22 +169,20 @@ class FinalPass {
 
   // Frames that no sweep has come to, such as those of a map that was given up: what they show may be in the
   // finished map. From each that is recognised its neighbours are tracked.
-  template <class Fallback, class Refinement>
-  void find_lost(Map<S>& map, Fallback& fallback, Refinement& refinement, Relocalisation<S>& relocalisation,
-                 TrajectoryLog<S>& log) {
+  template <class Stages>
+  void find_lost(Map<S>& map, Stages& stages, TrajectoryLog<S>& log) {
     const auto lost = [&](std::size_t i) { return log.find(frames_[i].index) == nullptr; };
     KeyframeId reference = map.surviving(map.keyframes.front().id);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (!lost(i)) continue;
       frame_.adopt(frames_[i]);
-      const PoseEstimate<S> estimate = relocalisation.find(
-          map, fallback, refinement, [] { return true; }, frame_, reference);
+      const PoseEstimate<S> estimate = stages.relocalisation.find(
+          map, stages.fallback, stages.refinement, [] { return true; }, frame_, reference);
       if (estimate.ok()) place(i, reference, map, log);
       std::swap(frames_[i], frame_.frame);
       if (!estimate.ok()) continue;
-      for (std::size_t j = i + 1; j < frames_.size() && lost(j); ++j)
-        track(j, 1, map, fallback, refinement, log);
-      for (std::size_t j = i; j-- > 0 && lost(j);) track(j, -1, map, fallback, refinement, log);
+      for (std::size_t j = i + 1; j < frames_.size() && lost(j); ++j) track(j, 1, map, stages, log);
+      for (std::size_t j = i; j-- > 0 && lost(j);) track(j, -1, map, stages, log);
     }
   }
 
@@ -200,9 +201,16 @@ class FinalPass {
   // begins with what was seen.
   void take_features(std::size_t i, const Map<S>& map) {
     if (!shutter.straightens(i)) return frame_.adopt(frames_[i]);
-    straight_ = frames_[i];
-    shutter.straighten(i, frames_[i], map, map.keyframes[map.index(previous_->reference)], straight_);
-    frame_.adopt(straight_);
+    Frame<S> straight = straightened(i, map, previous_->reference);
+    frame_.adopt(straight);
+  }
+
+  // A copy of frame i, its features straightened where its motion is known.
+  [[nodiscard]] Frame<S> straightened(std::size_t i, const Map<S>& map, KeyframeId reference) const {
+    Frame<S> straight = frames_[i];
+    if (shutter.straightens(i))
+      shutter.straighten(i, frames_[i], map, map.keyframes[map.index(reference)], straight);
+    return straight;
   }
 
   // Frame i is the one that was passed last, if there is one and it has a pose.
@@ -218,10 +226,10 @@ class FinalPass {
   }
 
   std::vector<Frame<S>> frames_;  // as they were seen, without their normals, in order
-  Frame<S> straight_;
   std::optional<Previous> previous_;
   TrackedFrame<S> frame_, last_, around_;  // of the last two the matches alone
   NeighbourTracking<S> neighbours_;
+  MapExtension<S> extension_;
 };
 static_assert(FinalStage<FinalPass<double>, double>);
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "sslam/track/contract/concepts.hpp"
-#include "sslam/track/localise/relocalisation.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
 namespace sslam {
@@ -13,8 +12,8 @@ struct NoFinalPass {
   [[nodiscard]] double read_out() const noexcept { return 0; }
   void keep(const TrackedFrame<S>&) noexcept {}
   [[nodiscard]] bool full() const noexcept { return true; }
-  template <class Fallback, class Refinement>
-  void run(Map<S>&, Fallback&, Refinement&, Relocalisation<S>&, TrajectoryLog<S>&) noexcept {}
+  template <class Stages>
+  void run(Map<S>&, Stages&, TrajectoryLog<S>&) noexcept {}
 };
 static_assert(FinalStage<NoFinalPass<double>, double>);
 
