@@ -61,15 +61,13 @@ class TimeChart extends Plot {
   }
 }
 
-function swatchOf(ink) { return element("span", { className: "swatch", style: `color: var(--${ink})` }); }
-
 // Columns of the table: a figure of each run, and which is the better end (1: much, -1: little, 0: neither).
 function columnsOfFigures() {
   const { unit } = comparison;
   const of = (key, what) => (one) => one.figures?.[key]?.[what];
   const errors = comparison.reference === "truth"
-    ? [[`ATE, ${unit}`, of("position", "rmse"), -1], ["largest", of("position", "max"), -1], ["rotation, °", of("rotation", "rmse"), -1]]
-    : [[`apart, ${unit}`, of("position", "rmse"), 0], ["largest", of("position", "max"), 0], ["rotation, °", of("rotation", "rmse"), 0]];
+    ? [[`ATE, ${unit}`, of("position", "rmse"), -1], [`largest, ${unit}`, of("position", "max"), -1], ["rotation, °", of("rotation", "rmse"), -1]]
+    : [[`apart, ${unit}`, of("position", "rmse"), 0], [`largest, ${unit}`, of("position", "max"), 0], ["rotation, °", of("rotation", "rmse"), 0]];
   return [
     ["tracked, %", (one) => 100 * one.metrics.share_tracked, 1],
     ["live, %", (one) => 100 * one.metrics.tracked_live / one.metrics.frames, 1],
@@ -91,7 +89,7 @@ function showRuns() {
   });
   const rows = runs.map((one) => {
     const href = one.link && one.link.split("/").map(encodeURIComponent).join("/");
-    const name = href ? element("a", { href }, one.label) : one.label;
+    const name = href ? element("a", { href }, nameOf(one.label)) : nameOf(one.label);
     const cells = columns.map(([, value], c) => element("td", { className: value(one) === best[c] ? "number best" : "number" }, figure(value(one))));
     return element("tr", {}, element("td", { className: "name" }, swatchOf(one.ink), name), ...cells);
   });
@@ -121,12 +119,26 @@ function showPaths() {
   byId("layers").append(...paths.map((path) => toggleButton(path.label, (on) => view.show(path, on), path.ink)));
   const from = (name, text) => element("button", { type: "button", onclick: () => view.seeFrom(name) }, text);
   byId("tools").append(from("oblique", "Reset"), from("above", "From above"), from("side", "From the side"),
-    element("button", { type: "button", title: "Save this picture as PNG", onclick: () => savePaths(view) }, "PNG"));
+    element("button", { type: "button", title: "Save this picture as PNG", onclick: () => savePaths(view) }, "PNG"),
+    element("button", { type: "button", title: "Save the aligned paths and the errors as CSV", onclick: () => offerFile("paths.csv", new Blob([pathsAsCsv()], { type: "text/csv" })) }, "CSV"));
   moment.listen(() => view.draw());
   window.pathView = view;
 }
 
 function savePaths(view) { view.canvas.toBlob((blob) => { if (blob) offerFile("paths.png", blob); }, "image/png"); }
+
+// A row for each frame of each run: the place on the aligned path, and the errors where they are known.
+function pathsAsCsv() {
+  const rows = [["run", "stamp", "x", "y", "z", "position_error", "rotation_error_deg"]];
+  for (const one of runs) {
+    const stamps = one.frames.all("stamp");
+    for (let row = 0; row < one.frames.count; ++row) {
+      const place = [0, 1, 2].map((k) => csvNumber(one.path?.[3 * row + k]));
+      rows.push([csvText(one.label), stamps[row], ...place, csvNumber(one.errors?.position_m[row]), csvNumber(one.errors?.rotation_deg[row])]);
+    }
+  }
+  return `${rows.map((cells) => cells.join(",")).join("\n")}\n`;
+}
 
 function showCurves() {
   const { reference, unit } = comparison;
@@ -137,18 +149,18 @@ function showCurves() {
   const [position, rotation] = reference === "truth" ? ["Position error", "Rotation error"] : ["Distance apart", "Rotation apart"];
   curves(position, (one) => one.errors, (one) => one.errors.position_m, { unit });
   curves(rotation, (one) => one.errors, (one) => one.errors.rotation_deg, { unit: "°" });
-  curves("Time for a frame", (one) => one.frames.has("frame_ms"), (one) => one.frames.all("frame_ms"), { unit: "ms" });
+  curves("Frame time", (one) => one.frames.has("frame_ms"), (one) => one.frames.all("frame_ms"), { unit: "ms" });
   curves("Points seen again", (one) => one.frames.has("point_inliers"), (one) => one.frames.all("point_inliers"), { counts: true });
 }
 
 function showStates() {
-  byId("states-legend").append(...Object.entries(kStateWords).flatMap(([state, words]) => [swatchOf(state), `${words} \u00a0 `]));
+  byId("states-legend").append(...Object.entries(kStateWords).flatMap(([state, words]) => [" ", element("span", { className: "entry" }, swatchOf(state), words)]));
   for (const one of runs) {
     if (one.frames.count === 0) continue;
     const strip = element("canvas", { "aria-label": `States of ${one.label}` });
     const step = one.frames.count > 1 ? (one.times[one.frames.count - 1] - one.times[0]) / (one.frames.count - 1) : 1;
     const share = (row) => (one.times[row] ?? one.times[one.frames.count - 1] + step) / (kEnd + step);
-    byId("states").append(element("span", { className: "name" }, swatchOf(one.ink), one.label), strip);
+    byId("states").append(element("span", { className: "name" }, swatchOf(one.ink), nameOf(one.label)), strip);
     redraws.push(() => drawStates(strip, one, share));
   }
 }
@@ -159,7 +171,7 @@ function showDifferences() {
   const text = (value) => (typeof value === "number" ? String(Number(value.toPrecision(6))) : value === undefined ? "–" : typeof value === "string" ? value : JSON.stringify(value));
   const names = [...new Set(flat.flatMap(Object.keys))].filter((name) => new Set(flat.map((one) => text(one[name]))).size > 1);
   if (names.length === 0) return byId("differences").append(element("p", { className: "quiet" }, "Nothing: all settings and parameters are the same."));
-  byId("differences").append(element("table", {}, element("tr", {}, element("th", {}, "setting"), ...runs.map((one) => element("th", {}, swatchOf(one.ink), one.label))),
+  byId("differences").append(element("table", {}, element("tr", {}, element("th", {}, "setting"), ...runs.map((one) => element("th", {}, swatchOf(one.ink), nameOf(one.label)))),
     ...names.map((name) => element("tr", {}, element("th", {}, name.replaceAll("_", " ")), ...flat.map((one) => element("td", { className: "name" }, text(one[name])))))));
 }
 

@@ -8,6 +8,10 @@ export async function useComparison(page) {
   assert.match(await page.run("byId('runs').innerText"), /ATE, m.*run\s.*lost\s/s);
   assert.ok(await page.run("document.querySelectorAll('#charts .chart').length >= 3 && document.querySelectorAll('#states canvas').length === 2"));
   assert.match(await page.run("byId('states-legend').innerText"), /lost/);
+  const csv = (await page.run("pathsAsCsv()")).trim().split("\n").map((line) => line.split(","));
+  assert.equal(csv[0].join(), "run,stamp,x,y,z,position_error,rotation_error_deg");
+  assert.deepEqual([...new Set(csv.slice(1).map(([name]) => name))], ["run", "lost"]);
+  assert.ok(csv.every((cells) => cells.length === 7) && csv.filter(([name, , x]) => name === "run" && Number.isFinite(Number(x)) && x !== "").length > 50);
   const picked = await page.run("byId('canvas').toDataURL()");
   await page.run("document.querySelector('.chart .plot').scrollIntoView({ block: 'center' })");
   const at = await page.middleOf(".chart .plot");
