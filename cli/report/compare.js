@@ -2,6 +2,7 @@
 // Several runs on one page: figures, paths, curves, states, and what is set differently. comparison.cpp is its other end.
 
 const kInks = 8;  // of runs, in style.css
+const kNone = "–";  // where a run lacks a setting
 
 // As runs of data.js, and what comparison.cpp has added. Seconds count from the first frame of all runs.
 function runsOf(list) {
@@ -165,14 +166,31 @@ function showStates() {
   }
 }
 
+// Where a preset leaves out a stage, its parameters are one row: [name, text of each run]. lacks(name): in some run.
+function foldedRows(names, lacks, texts) {
+  const stageOf = (name) => name.slice(0, name.indexOf("."));
+  const same = (name) => new Set(texts(name).filter((text) => text !== kNone)).size === 1;
+  const folds = (name) => name.includes(".") && lacks(name) && same(name);
+  const rows = [];
+  for (const name of names) {
+    const pattern = texts(name).map((text) => text === kNone).join();
+    const before = rows.find((row) => row.stage === stageOf(name) && row.pattern === pattern);
+    if (folds(name) && before) before.names.push(name);
+    else rows.push({ names: [name], ...(folds(name) ? { stage: stageOf(name), pattern } : {}) });
+  }
+  return rows.map(({ names: [first, ...more], stage }) => (more.length === 0 ? [first, texts(first)]
+    : [`${stage}.*`, texts(first).map((text) => (text === kNone ? kNone : countOf(more.length + 1, "parameter")))]));
+}
+
 // Settings and parameters that not all runs have the same.
 function showDifferences() {
   const flat = runs.map(({ settings: { parameters, ...settings } }) => ({ ...settings, ...(parameters ?? {}) }));
-  const text = (value) => (typeof value === "number" ? String(Number(value.toPrecision(6))) : value === undefined ? "–" : typeof value === "string" ? value : JSON.stringify(value));
+  const text = (value) => (typeof value === "number" ? String(Number(value.toPrecision(6))) : value === undefined ? kNone : typeof value === "string" ? value : JSON.stringify(value));
   const names = [...new Set(flat.flatMap(Object.keys))].filter((name) => new Set(flat.map((one) => text(one[name]))).size > 1);
   if (names.length === 0) return byId("differences").append(element("p", { className: "quiet" }, "Nothing: all settings and parameters are the same."));
   byId("differences").append(element("table", {}, element("tr", {}, element("th", {}, "setting"), ...runs.map((one) => element("th", {}, swatchOf(one.ink), nameOf(one.label)))),
-    ...names.map((name) => element("tr", {}, element("th", {}, name.replaceAll("_", " ")), ...flat.map((one) => element("td", { className: "name" }, text(one[name])))))));
+    ...foldedRows(names, (name) => flat.some((one) => !(name in one)), (name) => flat.map((one) => text(one[name])))
+      .map(([name, texts]) => element("tr", {}, element("th", {}, name.replaceAll("_", " ")), ...texts.map((cell) => element("td", { className: "name" }, cell))))));
 }
 
 function main() {

@@ -52,7 +52,7 @@ const kStateWords = {
 // What kept a frame from the usual way, in words; frames.csv has the short names.
 const kReasonWords = {
   "too few features": "too few features in the image",
-  "too few matches": "too few matches with the map",
+  "too few matches": "too few matches",
   "low parallax": "the camera has not moved sideways far enough",
   "no consensus": "the matches do not agree on one motion",
   "no Manhattan evidence": "no Manhattan frame was recognised in the image",

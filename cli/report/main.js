@@ -92,7 +92,7 @@ function showFrameText(row) {
   if (frames.count === 0) return;
   const [index, image, state, reason] = ["index", "image", "state", "reason"].map((name) => frames.text(name, row));
   byId("frame-name").textContent = `${index} · ${image}`;
-  const words = (kStateWords[run.look(row)] ?? state) + (reason ? `: ${kReasonWords[reason] ?? reason}` : "");
+  const words = (kStateWords[run.look(row)] ?? state) + (reason && !(reason === "no Manhattan evidence" && !run.manhattanSeen) ? `: ${kReasonWords[reason] ?? reason}` : "");
   byId("frame-state").replaceChildren(element("span", { className: "swatch", style: `color: var(--${run.look(row)})` }),
     [words, frames.number("keyframe", row) ? "keyframe" : ""].filter(Boolean).join(" · "));
   byId("clock").replaceChildren(clock(row), element("span", { className: "long" }, ` · ${row + 1} of ${frames.count}`));

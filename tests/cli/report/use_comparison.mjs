@@ -12,6 +12,8 @@ export async function useComparison(page) {
   assert.equal(csv[0].join(), "run,stamp,x,y,z,position_error,rotation_error_deg");
   assert.deepEqual([...new Set(csv.slice(1).map(([name]) => name))], ["run", "lost"]);
   assert.ok(csv.every((cells) => cells.length === 7) && csv.filter(([name, , x]) => name === "run" && Number.isFinite(Number(x)) && x !== "").length > 50);
+  assert.deepEqual(await page.run("foldedRows(['a.x', 'a.y', 'b'], (name) => name !== 'b', (name) => (name === 'b' ? ['1', '2'] : ['3', kNone]))"),
+    [["a.*", ["2 parameters", "–"]], ["b", ["1", "2"]]]);
   const picked = await page.run("byId('canvas').toDataURL()");
   await page.run("document.querySelector('.chart .plot').scrollIntoView({ block: 'center' })");
   const at = await page.middleOf(".chart .plot");
