@@ -8,7 +8,7 @@ import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSyn
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, kNoGl, kSoftwareGl } from "./browser.mjs";
-import { useComparison } from "./use_comparison.mjs";
+import { pinchPaths, useComparison } from "./use_comparison.mjs";
 
 const [, , sslam, pictures] = process.argv;
 const scratch = mkdtempSync(join(tmpdir(), "sslam_report_"));
@@ -228,7 +228,10 @@ async function main() {
       await useComparison(open);
       await open.screenshot(picture("comparison"));
     });
-    await look(browser, page, { size: { width: 390, height: 844 }, dark: true }, async (phone) => { await phone.screenshot(picture("comparison_phone")); });
+    await look(browser, page, { size: { width: 390, height: 844 }, dark: true }, async (phone) => {
+      await phone.screenshot(picture("comparison_phone"));
+      await pinchPaths(phone);
+    });
     damage(lost);
     await look(browser, lost, {}, async (page) => {
       assert.match(await page.run("byId('story').textContent"), /map\.sslam: is missing.*views\.bin: is cut off/);

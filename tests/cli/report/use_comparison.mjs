@@ -2,6 +2,17 @@
 // Uses the page that compares two runs.
 import assert from "node:assert/strict";
 
+// Two fingers that part: the paths grow.
+export async function pinchPaths(page) {
+  await page.run("byId('canvas').scrollIntoView({ block: 'center' })");
+  const [x, y] = await page.middleOf("#canvas");
+  const touch = (type, ...offsets) => page.send("Input.dispatchTouchEvent", { type, touchPoints: offsets.map((offset, id) => ({ x: x + offset, y, id })) });
+  await touch("touchStart", -20, 20);
+  await touch("touchMove", -40, 40);
+  await touch("touchEnd");
+  assert.ok(await page.run("pathView.zoom > 1.5"));
+}
+
 export async function useComparison(page) {
   assert.equal(await page.run("document.querySelectorAll('#runs tr').length"), 3);
   assert.ok(await page.run("Array.from(document.querySelectorAll('#runs a'), (a) => a.getAttribute('href')).join() === 'demo/run/report.html,lost/report.html'"));
