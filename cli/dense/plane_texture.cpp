@@ -14,7 +14,10 @@ constexpr std::size_t kViewsOfTile = 4;
 
 class Painter {
  public:
-  Painter(const TextureInput& input, Atlas& atlas) : input_(input), atlas_(atlas) { find_gains(); }
+  Painter(const TextureInput& input, Atlas& atlas) : input_(input), atlas_(atlas) {
+    find_showing();
+    find_gains();
+  }
 
   void paint() {
     sum_.create(atlas_.image.size());
@@ -133,6 +136,17 @@ class Painter {
     return out;
   }
 
+  // Of each plane, the views that are labelled with it somewhere.
+  void find_showing() {
+    for (const dense::DensePlane& plane : input_.model.planes) {
+      const auto label = static_cast<std::int16_t>(plane.label);
+      std::vector<std::size_t>& views = showing_.emplace_back();
+      for (std::size_t v = 0; v < input_.views.size(); ++v)
+        if (const auto& of = input_.model.labels[v].plane; std::find(of.begin(), of.end(), label) != of.end())
+          views.push_back(v);
+    }
+  }
+
   // Exposures: log I(view, place) = log gain^-1(view) + log albedo(place), by alternating means over places
   // that several views show; gains are 1 on average and drawn towards 1.
   void find_gains() {
@@ -147,7 +161,7 @@ class Painter {
     for (const Chart& chart : atlas_.charts)
       for (int y = chart.place.y + step / 2; y < chart.place.br().y; y += step)
         for (int x = chart.place.x + step / 2; x < chart.place.br().x; x += step, ++places)
-          for (std::size_t v = 0; v < input_.views.size(); ++v) {
+          for (const std::size_t v : showing_[chart.plane]) {
             Vec2<double> pixel;
             const dense::DensePlane& plane = plane_of(chart);
             if (!(rate(v, plane, place(chart, x, y), pixel) > 0) || shown(v, pixel, plane.label) < 0.99)
@@ -184,6 +198,7 @@ class Painter {
   cv::Mat_<cv::Vec4f> sum_;               // weighted colours, and weights
   std::vector<std::vector<Tile>> tiles_;  // by view
   std::vector<double> gains_;             // by view
+  std::vector<std::vector<std::size_t>> showing_;
 };
 
 }  // namespace

@@ -23,7 +23,8 @@ class Chart extends Plot {
 
   // Where the pose has no Manhattan rotation in it, is uncertain, or there is none.
   drawBehind(context, height) {
-    const noted = (row) => (["lost", "uncertain", "fallback"].includes(run.look(row)) ? run.look(row) : null);
+    const told = ["lost", "uncertain", ...(run.manhattanSeen ? ["fallback"] : [])];
+    const noted = (row) => (told.includes(run.look(row)) ? run.look(row) : null);
     context.globalAlpha = 0.2;
     for (const span of spansOf(run.frames.count, noted)) {
       context.fillStyle = colour(span.key);
@@ -44,9 +45,9 @@ function showCharts() {
   }
   if (frames.has("point_inliers"))
     new Chart("Map seen again", [{ label: "points", ink: "accent", values: column("point_inliers") }, { label: "lines", ink: "x", values: column("line_inliers") }], { counts: true });
-  if (frames.has("axes_seen")) new Chart("Manhattan axes seen", [{ label: "seen", ink: "manhattan", values: column("axes_seen"), unit: "of 3" }], { whole: 3, counts: true });
+  if (frames.has("axes_seen") && (run.manhattanSeen || run.kind === "live")) new Chart("Manhattan axes seen", [{ label: "seen", ink: "manhattan", values: column("axes_seen"), unit: "of 3" }], { whole: 3, counts: true });
   if (frames.has("frame_ms"))
-    new Chart("Time for a frame", [{ label: "all", ink: "accent", values: column("frame_ms"), unit: "ms" }, { label: "tracking", ink: "x", values: column("tracking_ms"), unit: "ms" }]);
+    new Chart("Frame time", [{ label: "all", ink: "accent", values: column("frame_ms"), unit: "ms" }, { label: "tracking", ink: "x", values: column("tracking_ms"), unit: "ms" }]);
   if (frames.has("points"))
     new Chart("Features found", [{ label: "points", ink: "accent", values: column("points") }, { label: "lines", ink: "x", values: column("lines") }], { counts: true });
 }

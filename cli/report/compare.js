@@ -2,6 +2,7 @@
 // Several runs on one page: figures, paths, curves, states, and what is set differently. comparison.cpp is its other end.
 
 const kInks = 8;  // of runs, in style.css
+const kNone = "–";  // where a run lacks a setting
 
 // As runs of data.js, and what comparison.cpp has added. Seconds count from the first frame of all runs.
 function runsOf(list) {
@@ -61,15 +62,13 @@ class TimeChart extends Plot {
   }
 }
 
-function swatchOf(ink) { return element("span", { className: "swatch", style: `color: var(--${ink})` }); }
-
 // Columns of the table: a figure of each run, and which is the better end (1: much, -1: little, 0: neither).
 function columnsOfFigures() {
   const { unit } = comparison;
   const of = (key, what) => (one) => one.figures?.[key]?.[what];
   const errors = comparison.reference === "truth"
-    ? [[`ATE, ${unit}`, of("position", "rmse"), -1], ["largest", of("position", "max"), -1], ["rotation, °", of("rotation", "rmse"), -1]]
-    : [[`apart, ${unit}`, of("position", "rmse"), 0], ["largest", of("position", "max"), 0], ["rotation, °", of("rotation", "rmse"), 0]];
+    ? [[`ATE, ${unit}`, of("position", "rmse"), -1], [`largest, ${unit}`, of("position", "max"), -1], ["rotation, °", of("rotation", "rmse"), -1]]
+    : [[`apart, ${unit}`, of("position", "rmse"), 0], [`largest, ${unit}`, of("position", "max"), 0], ["rotation, °", of("rotation", "rmse"), 0]];
   return [
     ["tracked, %", (one) => 100 * one.metrics.share_tracked, 1],
     ["live, %", (one) => 100 * one.metrics.tracked_live / one.metrics.frames, 1],
@@ -91,7 +90,7 @@ function showRuns() {
   });
   const rows = runs.map((one) => {
     const href = one.link && one.link.split("/").map(encodeURIComponent).join("/");
-    const name = href ? element("a", { href }, one.label) : one.label;
+    const name = href ? element("a", { href }, nameOf(one.label)) : nameOf(one.label);
     const cells = columns.map(([, value], c) => element("td", { className: value(one) === best[c] ? "number best" : "number" }, figure(value(one))));
     return element("tr", {}, element("td", { className: "name" }, swatchOf(one.ink), name), ...cells);
   });
@@ -121,12 +120,26 @@ function showPaths() {
   byId("layers").append(...paths.map((path) => toggleButton(path.label, (on) => view.show(path, on), path.ink)));
   const from = (name, text) => element("button", { type: "button", onclick: () => view.seeFrom(name) }, text);
   byId("tools").append(from("oblique", "Reset"), from("above", "From above"), from("side", "From the side"),
-    element("button", { type: "button", title: "Save this picture as PNG", onclick: () => savePaths(view) }, "PNG"));
+    element("button", { type: "button", title: "Save this picture as PNG", onclick: () => savePaths(view) }, "PNG"),
+    element("button", { type: "button", title: "Save the aligned paths and the errors as CSV", onclick: () => offerFile("paths.csv", new Blob([pathsAsCsv()], { type: "text/csv" })) }, "CSV"));
   moment.listen(() => view.draw());
   window.pathView = view;
 }
 
 function savePaths(view) { view.canvas.toBlob((blob) => { if (blob) offerFile("paths.png", blob); }, "image/png"); }
+
+// A row for each frame of each run: the place on the aligned path, and the errors where they are known.
+function pathsAsCsv() {
+  const rows = [["run", "stamp", "x", "y", "z", "position_error", "rotation_error_deg"]];
+  for (const one of runs) {
+    const stamps = one.frames.all("stamp");
+    for (let row = 0; row < one.frames.count; ++row) {
+      const place = [0, 1, 2].map((k) => csvNumber(one.path?.[3 * row + k]));
+      rows.push([csvText(one.label), stamps[row], ...place, csvNumber(one.errors?.position_m[row]), csvNumber(one.errors?.rotation_deg[row])]);
+    }
+  }
+  return `${rows.map((cells) => cells.join(",")).join("\n")}\n`;
+}
 
 function showCurves() {
   const { reference, unit } = comparison;
@@ -137,30 +150,47 @@ function showCurves() {
   const [position, rotation] = reference === "truth" ? ["Position error", "Rotation error"] : ["Distance apart", "Rotation apart"];
   curves(position, (one) => one.errors, (one) => one.errors.position_m, { unit });
   curves(rotation, (one) => one.errors, (one) => one.errors.rotation_deg, { unit: "°" });
-  curves("Time for a frame", (one) => one.frames.has("frame_ms"), (one) => one.frames.all("frame_ms"), { unit: "ms" });
+  curves("Frame time", (one) => one.frames.has("frame_ms"), (one) => one.frames.all("frame_ms"), { unit: "ms" });
   curves("Points seen again", (one) => one.frames.has("point_inliers"), (one) => one.frames.all("point_inliers"), { counts: true });
 }
 
 function showStates() {
-  byId("states-legend").append(...Object.entries(kStateWords).flatMap(([state, words]) => [swatchOf(state), `${words} \u00a0 `]));
+  byId("states-legend").append(...Object.entries(kStateWords).flatMap(([state, words]) => [" ", element("span", { className: "entry" }, swatchOf(state), words)]));
   for (const one of runs) {
     if (one.frames.count === 0) continue;
     const strip = element("canvas", { "aria-label": `States of ${one.label}` });
     const step = one.frames.count > 1 ? (one.times[one.frames.count - 1] - one.times[0]) / (one.frames.count - 1) : 1;
     const share = (row) => (one.times[row] ?? one.times[one.frames.count - 1] + step) / (kEnd + step);
-    byId("states").append(element("span", { className: "name" }, swatchOf(one.ink), one.label), strip);
+    byId("states").append(element("span", { className: "name" }, swatchOf(one.ink), nameOf(one.label)), strip);
     redraws.push(() => drawStates(strip, one, share));
   }
+}
+
+// Where a preset leaves out a stage, its parameters are one row: [name, text of each run]. lacks(name): in some run.
+function foldedRows(names, lacks, texts) {
+  const stageOf = (name) => name.slice(0, name.indexOf("."));
+  const same = (name) => new Set(texts(name).filter((text) => text !== kNone)).size === 1;
+  const folds = (name) => name.includes(".") && lacks(name) && same(name);
+  const rows = [];
+  for (const name of names) {
+    const pattern = texts(name).map((text) => text === kNone).join();
+    const before = rows.find((row) => row.stage === stageOf(name) && row.pattern === pattern);
+    if (folds(name) && before) before.names.push(name);
+    else rows.push({ names: [name], ...(folds(name) ? { stage: stageOf(name), pattern } : {}) });
+  }
+  return rows.map(({ names: [first, ...more], stage }) => (more.length === 0 ? [first, texts(first)]
+    : [`${stage}.*`, texts(first).map((text) => (text === kNone ? kNone : countOf(more.length + 1, "parameter")))]));
 }
 
 // Settings and parameters that not all runs have the same.
 function showDifferences() {
   const flat = runs.map(({ settings: { parameters, ...settings } }) => ({ ...settings, ...(parameters ?? {}) }));
-  const text = (value) => (typeof value === "number" ? String(Number(value.toPrecision(6))) : value === undefined ? "–" : typeof value === "string" ? value : JSON.stringify(value));
+  const text = (value) => (typeof value === "number" ? String(Number(value.toPrecision(6))) : value === undefined ? kNone : typeof value === "string" ? value : JSON.stringify(value));
   const names = [...new Set(flat.flatMap(Object.keys))].filter((name) => new Set(flat.map((one) => text(one[name]))).size > 1);
   if (names.length === 0) return byId("differences").append(element("p", { className: "quiet" }, "Nothing: all settings and parameters are the same."));
-  byId("differences").append(element("table", {}, element("tr", {}, element("th", {}, "setting"), ...runs.map((one) => element("th", {}, swatchOf(one.ink), one.label))),
-    ...names.map((name) => element("tr", {}, element("th", {}, name.replaceAll("_", " ")), ...flat.map((one) => element("td", { className: "name" }, text(one[name])))))));
+  byId("differences").append(element("table", {}, element("tr", {}, element("th", {}, "setting"), ...runs.map((one) => element("th", {}, swatchOf(one.ink), nameOf(one.label)))),
+    ...foldedRows(names, (name) => flat.some((one) => !(name in one)), (name) => flat.map((one) => text(one[name])))
+      .map(([name, texts]) => element("tr", {}, element("th", {}, name.replaceAll("_", " ")), ...texts.map((cell) => element("td", { className: "name" }, cell))))));
 }
 
 function main() {

@@ -57,16 +57,24 @@ class PathView {
 
   listen() {
     const { canvas } = this;
-    let last = null;
+    const down = new Map();  // places of the pressed pointers: one turns, two zoom
+    const apart = () => {
+      const [[x0, y0], [x1, y1]] = [...down.values()];
+      return Math.hypot(x1 - x0, y1 - y0);
+    };
     canvas.addEventListener("pointerdown", (event) => {
-      last = [event.clientX, event.clientY];
+      down.set(event.pointerId, [event.clientX, event.clientY]);
       canvas.setPointerCapture(event.pointerId);
     });
     canvas.addEventListener("pointermove", (event) => {
-      if (!event.buttons || !last) return;
-      this.turn(-(event.clientX - last[0]) / 200, (event.clientY - last[1]) / 200, 1);
-      last = [event.clientX, event.clientY];
+      const last = down.get(event.pointerId);
+      if (!last) return;
+      const before = down.size === 2 ? apart() : 0;
+      down.set(event.pointerId, [event.clientX, event.clientY]);
+      if (down.size === 1) this.turn(-(event.clientX - last[0]) / 200, (event.clientY - last[1]) / 200, 1);
+      else if (before > 0) this.turn(0, 0, apart() / before);
     });
+    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => down.delete(event.pointerId));
     canvas.addEventListener("wheel", (event) => {
       this.turn(0, 0, Math.exp(-event.deltaY / 600));
       event.preventDefault();

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What both pages, of a run and of several, have to click on and to look at.
 
+function swatchOf(ink) { return element("span", { className: "swatch", style: `color: var(--${ink})` }); }
+
+// A name that may be long: what does not fit is cut off at its beginning, since names of runs differ at their end.
+function nameOf(text) { return element("span", { className: "label", title: text }, element("bdi", {}, text)); }
+
 function toggleButton(label, set, inkName) {
   const button = element("button", { type: "button", "aria-pressed": "true" });
   if (inkName !== undefined) {
@@ -8,7 +13,7 @@ function toggleButton(label, set, inkName) {
     if (inkName) swatch.style.color = `var(--${inkName})`;
     button.append(swatch);
   }
-  button.append(label);
+  button.append(nameOf(label));
   button.addEventListener("click", () => {
     const on = button.getAttribute("aria-pressed") !== "true";
     button.setAttribute("aria-pressed", String(on));

@@ -99,6 +99,8 @@ function makeRun(raw) {
     pointWitnesses: withWitnesses(data.point_witnesses),
     lineWitnesses: withWitnesses(data.lines.witnesses),
     reason: (row) => frames.text("reason", row),
+    // Whether any frame has seen the room's axes, or is tracked by them; the preset `features` never does.
+    manhattanSeen: frames.all("axes_seen").some((axes) => axes > 0) || frames.all("structure").some((held) => held > 0),
   };
 }
 

@@ -25,6 +25,11 @@ function figure(value) {
   return String(Number(number.toPrecision(3)));
 }
 
+function withUnit(value, unit) {
+  if (unit === "°") return `${figure(value)}°`;
+  return `${figure(value)} ${value === 1 && unit === "map units" ? "map unit" : unit}`;
+}
+
 function clock(row) { return `${run.seconds(row).toFixed(2)} s`; }
 
 function countOf(number, noun) { return `${number} ${noun}${number === 1 ? "" : "s"}`; }
@@ -41,17 +46,16 @@ function cross(a, b) { return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b
 
 // The states of frames, in words; style.css has a colour for each.
 const kStateWords = {
-  manhattan: "rotation from the Manhattan frame", fallback: "six degrees of freedom, without the Manhattan rotation",
-  uncertain: "pose too uncertain for a keyframe", lost: "lost", initialising: "no map yet",
+  manhattan: "Manhattan rotation", fallback: "six degrees of freedom", uncertain: "uncertain pose", lost: "lost", initialising: "no map yet",
 };
 
 // What kept a frame from the usual way, in words; frames.csv has the short names.
 const kReasonWords = {
   "too few features": "too few features in the image",
-  "too few matches": "too few matches with the map",
+  "too few matches": "too few matches",
   "low parallax": "the camera has not moved sideways far enough",
   "no consensus": "the matches do not agree on one motion",
-  "no Manhattan evidence": "the Manhattan axes gave no rotation that is certain enough",
+  "no Manhattan evidence": "no Manhattan frame was recognised in the image",
   "Manhattan pose rejected": "the pose with the Manhattan rotation does not fit the map",
   "uncertain pose": "the pose is too uncertain to be used",
   relocalised: "found again in the map",

@@ -19,7 +19,12 @@ function showTitle() {
 // The 3D view where the browser can, else the map from above.
 function makeView() {
   const canvas = byId("canvas");
-  if (run.kind !== "live" && run.points.length + run.lines.axes.length === 0 && !run.trajectoryThere) notice("No map and no path to see: the list below says why.");
+  const nothing = run.points.length + run.lines.axes.length === 0 && !run.trajectoryThere && !run.surfaces;
+  if (nothing && run.kind === "map") notice("This map is empty.");
+  if (nothing && run.kind === "run") {
+    canvas.closest(".stage").hidden = true;
+    canvas.closest(".stage-row").classList.add("pictures-alone");
+  }
   const webgl = webglContext(canvas);
   if (webgl) return new Scene3D(canvas, webgl);
   byId("view").classList.add("flat");
@@ -43,7 +48,7 @@ function showLayers(view) {
   });
   byId("layers").append(...buttons);
   if (!(view instanceof Scene3D)) return;
-  const follow = toggleButton("Follow camera", (on) => view.viewpoint.setFollow(on));
+  const follow = toggleButton("Follow", (on) => view.viewpoint.setFollow(on));
   follow.id = "follow";
   follow.classList.add("mode");
   follow.setAttribute("aria-pressed", "false");
@@ -62,8 +67,8 @@ function showTools(view) {
   const button = (label, title, onclick) => element("button", { type: "button", title, onclick }, label);
   const tools = byId("tools");
   if (view instanceof Scene3D) {
-    const size = element("input", { type: "range", id: "point-size", min: 1, max: 10, step: 0.5, value: kPointSize, oninput: () => view.setPointSize(Number(size.value)) });
-    tools.append(element("label", {}, "Point size ", size));
+    const size = element("input", { type: "range", id: "point-size", min: 1, max: 10, step: 0.5, value: kPointSize, title: "Size of the points", oninput: () => view.setPointSize(Number(size.value)) });
+    tools.append(element("label", {}, "Size ", size));
     if (run.coloured || run.kind === "live") tools.append(chooser("Colour of points and lines", [["seen", "Colours as seen"], ["axes", "Colours by axis"]], (value) => view.setSeenColours(value === "seen")));
     if (run.frames.count > 0 || run.kind === "live") {
       const words = [["state", "Path by state"], ...(run.errors ? [["error", "Path by error"]] : []), ["time", "Path by time"]];
@@ -87,7 +92,7 @@ function showFrameText(row) {
   if (frames.count === 0) return;
   const [index, image, state, reason] = ["index", "image", "state", "reason"].map((name) => frames.text(name, row));
   byId("frame-name").textContent = `${index} · ${image}`;
-  const words = (kStateWords[run.look(row)] ?? state) + (reason ? `: ${kReasonWords[reason] ?? reason}` : "");
+  const words = (kStateWords[run.look(row)] ?? state) + (reason && !(reason === "no Manhattan evidence" && !run.manhattanSeen) ? `: ${kReasonWords[reason] ?? reason}` : "");
   byId("frame-state").replaceChildren(element("span", { className: "swatch", style: `color: var(--${run.look(row)})` }),
     [words, frames.number("keyframe", row) ? "keyframe" : ""].filter(Boolean).join(" · "));
   byId("clock").replaceChildren(clock(row), element("span", { className: "long" }, ` · ${row + 1} of ${frames.count}`));
@@ -127,6 +132,7 @@ const kKeys = [
   { keys: ["f", "F"], name: "F", does: "follow the camera", act: () => byId("follow")?.click() },
   { keys: ["r", "R"], name: "R", does: "reset the view", act: () => byId("reset")?.click() },
   { keys: ["t", "T"], name: "T", does: "light or dark", act: () => byId("theme").click() },
+  { keys: ["Escape"], name: "Escape", does: "close what a click has told", act: () => window.picker?.clear() },
   { keys: ["1", "2", "3", "4", "5", "6", "7", "8"], name: "1 to 8", does: "show or hide a layer", act: (event) => document.querySelectorAll("#layers [data-layer]:not([hidden])")[Number(event.key) - 1]?.click() },
 ];
 
@@ -169,8 +175,15 @@ function hideMissing() {
   document.querySelectorAll("details").forEach((details) => { details.hidden = details.querySelector("pre, div").textContent === ""; });
 }
 
+// The stage reaches down to the time bar, which covers nothing of it.
+function fitStage() {
+  const above = document.querySelector(".stage-row").getBoundingClientRect().top + scrollY;
+  document.documentElement.style.setProperty("--around", `${Math.ceil(above + document.querySelector(".timeline").offsetHeight + 12)}px`);
+}
+
 function main() {
   document.documentElement.dataset.kind = run.kind;
+  redraws.push(fitStage);
   startTheme();
   showFigures();
   part("title", showTitle);

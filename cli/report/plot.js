@@ -19,7 +19,7 @@ class Plot {
     this.whole = options.whole ?? 0;  // the axis reaches at least this far
     this.counts = options.counts ?? false;  // whole numbers
     this.values = series.map(() => element("span", { className: "value" }));
-    const legend = series.map((s, i) => element("span", {}, element("span", { className: "swatch", style: `color: var(--${s.ink})` }), `${s.label} `, this.values[i]));
+    const legend = series.map((s, i) => element("span", { className: "entry" }, swatchOf(s.ink), nameOf(s.label), " ", this.values[i]));
     this.canvas = element("canvas", { role: "img", "aria-label": `${title} over time` });
     this.cursor = element("div", { className: "cursor" });
     this.plot = element("div", { className: "plot" }, this.canvas, this.cursor);
@@ -41,7 +41,7 @@ class Plot {
   mark(share, values) {
     if (!this.width) return;
     this.cursor.style.left = `${this.xOf(share)}px`;
-    this.series.forEach((s, i) => { this.values[i].textContent = `${figure(values[i])}${s.unit ? ` ${s.unit}` : ""}`; });
+    this.series.forEach((s, i) => { this.values[i].textContent = s.unit ? withUnit(values[i], s.unit) : figure(values[i]); });
   }
 
   draw() {
@@ -54,9 +54,30 @@ class Plot {
 
   save() {
     const [width, height] = [this.width, this.canvas.clientHeight];
-    const svg = new SvgContext(width, height, `${this.title}: ${this.series.map((s) => s.label).join(", ")}`);
+    const svg = new SvgContext(width, this.title);
+    svg.translate(0, this.drawHead(svg));
     this.drawOn(svg, height);
+    svg.height += height;
     offerFile(`${this.title.toLowerCase().replaceAll(" ", "_")}.svg`, new Blob([svg.text()], { type: "image/svg+xml" }));
+  }
+
+  // Title and legend, in as many rows as they need; returns their height.
+  drawHead(svg) {
+    const measure = this.canvas.getContext("2d"), row = 16;
+    let x = kPlot.left, y = row;
+    const put = (text, ink) => {
+      const width = measure.measureText(text).width + (ink ? 14 : 0);
+      if (x + width > this.width - kPlot.right && x > kPlot.left) [x, y] = [kPlot.left, y + row];
+      svg.fillStyle = colour(ink ?? "ink");
+      if (ink) svg.fillRect(x, y - 9, 9, 9);
+      svg.fillStyle = colour("ink");
+      svg.fillText(text, x + (ink ? 14 : 0), y);
+      x += width + 14;
+    };
+    const unit = this.series[0].unit;
+    put(`${this.title}${unit ? `, ${unit}` : ""}`);
+    for (const s of this.series) put(s.label, s.ink);
+    return y + 6;
   }
 
   drawOn(context, height) {
@@ -94,7 +115,7 @@ class Plot {
   drawTicks(context, high, y, height) {
     context.font = "11px system-ui, sans-serif";
     context.lineWidth = 1;
-    const step = this.counts ? Math.max(1, tickStep(high, 3.5)) : tickStep(high, 3.5);
+    const step = this.counts ? Math.max(1, tickStep(high, 4)) : tickStep(high, 4);
     context.textAlign = "right";
     for (let value = 0; value <= high * 1.001; value += step) {
       context.strokeStyle = colour("line");
@@ -107,7 +128,7 @@ class Plot {
     }
     const end = this.duration();
     if (!(end > 0)) return;
-    const seconds = tickStep(end, Math.max(2, this.width / 90));
+    const seconds = tickStep(end, Math.max(2, this.width / 70));
     context.textAlign = "center";
     for (let at = 0; at <= end * 1.001; at += seconds)
       context.fillText(`${figure(at)}${at === 0 ? " s" : ""}`, Math.min(this.xOf(this.shareOfTime(at)), this.width - 14), height - 4);

@@ -55,6 +55,6 @@ function(sslam_page name html bundle)
 endfunction()
 
 set(report_tools format.js controls.js data.js plot.js save.js)
-sslam_page(report_page page.html "${three}" ${report_tools} surfaces.js story.js top_view.js viewpoint.js scene_parts.js scene.js
+sslam_page(report_page page.html "${three}" ${report_tools} surfaces.js story.js top_view.js viewpoint.js scene_parts.js legend.js scene.js
            charts.js views.js sphere.js tables.js pick.js live.js main.js)
 sslam_page(compare_page compare.html "" ${report_tools} compare_paths.js compare.js)

@@ -11,8 +11,13 @@ function xmlText(text) { return String(text).replaceAll("&", "&amp;").replaceAll
 
 // As much of a canvas's 2D context as the charts use, written down as SVG.
 class SvgContext {
-  constructor(width, height, title) {
-    Object.assign(this, { width, height, title, parts: [], path: [], globalAlpha: 1, lineWidth: 1, textAlign: "left", lineJoin: "round" });
+  constructor(width, title) {
+    Object.assign(this, { width, height: 0, title, parts: [], open: 0, path: [], globalAlpha: 1, lineWidth: 1, textAlign: "left", lineJoin: "round" });
+  }
+  translate(x, y) {
+    this.parts.push(`<g transform="translate(${this.n(x)} ${this.n(y)})">`);
+    this.height += y;
+    ++this.open;
   }
   n(value) { return Number(value.toFixed(2)); }
   beginPath() { this.path = []; }
@@ -30,21 +35,22 @@ class SvgContext {
   }
   text() {
     return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${this.width} ${this.height}" width="${this.width}" height="${this.height}" font-family="sans-serif" font-size="11">`
-      + `<title>${xmlText(this.title)}</title><rect width="100%" height="100%" fill="${colour("card")}"/>${this.parts.join("\n")}</svg>\n`;
+      + `<title>${xmlText(this.title)}</title><rect width="100%" height="100%" fill="${colour("card")}"/>${this.parts.join("\n")}${"</g>".repeat(this.open)}</svg>\n`;
   }
 }
+
+function csvText(text) { return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text; }
+function csvNumber(value) { return Number.isFinite(value) ? String(value) : ""; }
 
 // The columns of frames.csv, with each frame's pose (world from camera) and errors.
 function framesAsCsv() {
   const { frames } = run;
   const columns = Object.keys(frames.columns);
-  const cell = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-  const number = (value) => (Number.isFinite(value) ? String(value) : "");
   const lines = [[...columns, "tx", "ty", "tz", "qx", "qy", "qz", "qw", ...(run.errors ? ["position_error_m", "rotation_error_deg"] : [])].join(",")];
   for (let row = 0; row < frames.count; ++row) {
-    const cells = columns.map((name) => cell(frames.text(name, row)));
-    for (let i = 0; i < 7; ++i) cells.push(number(run.poses[7 * row + i]));
-    if (run.errors) cells.push(number(run.errors.position_m[row]), number(run.errors.rotation_deg[row]));
+    const cells = columns.map((name) => csvText(frames.text(name, row)));
+    for (let i = 0; i < 7; ++i) cells.push(csvNumber(run.poses[7 * row + i]));
+    if (run.errors) cells.push(csvNumber(run.errors.position_m[row]), csvNumber(run.errors.rotation_deg[row]));
     lines.push(cells.join(","));
   }
   return `${lines.join("\n")}\n`;

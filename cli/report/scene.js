@@ -25,6 +25,7 @@ class Scene3D {
     this.marked = [];
     this.seenColours = true;  // as soon as there are any
     this.pathColours = "state";
+    this.legend = new Legend(canvas.parentElement);
     this.measure();
     this.viewpoint = new Viewpoint(canvas, this.world, this.seen, () => this.request());
     this.build();
@@ -259,6 +260,7 @@ class Scene3D {
   gridEnds() {
     const extent = 2 * this.radius / run.scale;
     const step = run.metres_per_unit && this.radius < 40 ? 1 / run.scale : 10 ** Math.floor(Math.log10(extent / 4));
+    this.square = step * run.scale;
     const { low, high } = boxOfRun();
     const [left, near] = [0, 2].map((a) => step * (Math.floor(low[a] / step) - 1));
     const [right, far] = [0, 2].map((a) => step * (Math.ceil(high[a] / step) + 1));
@@ -284,6 +286,7 @@ class Scene3D {
     this.worst = run.errors ? quantile(run.errors.position_m.filter((value) => !Number.isNaN(value)), 0.98) || 1 : 1;
     const states = Object.fromEntries(Object.keys(kStateWords).map((s) => [s, ink(s)]));
     this.paint("path", this.pathRows.length, (i) => this.pathColour(this.pathRows[i], states));
+    this.legend.show({ by: this.pathColours, worst: this.worst, square: this.square });
     this.showFrame();
   }
 

@@ -5,7 +5,7 @@
 class Sphere {
   constructor() {
     this.canvas = element("canvas", { role: "img", "aria-label": "Gaussian sphere: normals, segments and axes" });
-    this.figure = element("figure", {}, this.canvas, element("figcaption", {}, "Gaussian sphere: normals (dots), segments (arcs), axes with cones"));
+    this.figure = element("figure", {}, this.canvas, element("figcaption", {}, "Gaussian sphere: normals and segments"));
     redraws.push(() => this.draw());
   }
 

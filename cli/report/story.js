@@ -2,16 +2,36 @@
 // What went wrong and where, in words.
 
 const kWarnings = 5;  // in full
+const kWithoutManhattan = { features: "The preset features uses no Manhattan frame" };
 const kJitter = 1.25;  // times as long as its truth is a path that is mentioned
 
-// "too few matches with the map (10 frames), ...": the most frequent first.
-function reasonsIn(span) {
+// What helps while there is no map, by the reason.
+const kAdvice = {
+  "low parallax": "Begin with a slow movement to the side.",
+  "too few features": "Point the camera at edges and corners, and avoid blur and darkness.",
+  "too few matches": "Move more slowly, and use every frame.",
+  "no consensus": "Check the calibration of the camera.",
+};
+
+// [reason, number of frames]: the most frequent first.
+function countedReasons(span) {
   const counts = new Map();
   for (let row = span.from; row <= span.to; ++row) {
     const reason = run.reason(row);
     if (reason) counts.set(reason, (counts.get(reason) ?? 0) + 1);
   }
-  const sorted = [...counts].sort((a, b) => b[1] - a[1]);
+  return [...counts].sort((a, b) => b[1] - a[1]);
+}
+
+// A sentence to come after others, or nothing.
+function adviceFor(span) {
+  const advice = kAdvice[countedReasons(span)[0]?.[0]];
+  return advice ? ` ${advice}` : "";
+}
+
+// "too few matches with the map (10 frames), ..."
+function reasonsIn(span) {
+  const sorted = countedReasons(span);
   const words = (reason) => kReasonWords[reason] ?? reason;
   if (sorted.length === 1) return words(sorted[0][0]);
   return sorted.map(([reason, count]) => `${words(reason)} (${countOf(count, "frame")})`).join(", ");
@@ -32,7 +52,7 @@ function spanStory(span, first) {
   const length = span.to - span.from + 1;
   const next = span.to + 1 < run.frames.count ? run.state(span.to + 1) : "";
   if (span.key === "lost") {
-    let after = run.kind === "live" ? "; not found again yet" : "; not found again before the end";
+    let after = `; not found again ${run.kind === "live" ? "yet" : "before the end"}. Return to a view that the map shows`;
     if (next === "initialising") after = "; a new map was begun";
     else if (next) after = `; found again at frame ${run.frames.text("index", span.to + 1)}`;
     return { state: "lost", text: `Lost for ${countOf(length, "frame")} (${whereOf(span)})${because(span)}${after}.`, row: span.from, length };
@@ -51,8 +71,7 @@ function spanStory(span, first) {
   }
   const late = length > 30 || length > 0.1 * run.frames.count;
   const what = next ? `The ${first ? "first" : "next"} map was made after ${countOf(length, "frame")}` : `There was no map yet after ${countOf(length, "frame")}`;
-  const advice = late && reasonsIn(span).includes(kReasonWords["low parallax"]) ? " Begin with a slow movement to the side." : "";
-  return { state: late ? "lost" : "initialising", text: `${what} (${whereOf(span)})${because(span)}.${advice}`, row: span.from, length };
+  return { state: late ? "lost" : "initialising", text: `${what} (${whereOf(span)})${because(span)}.${late ? adviceFor(span) : ""}`, row: span.from, length };
 }
 
 // The longest in full, then a count.
@@ -75,10 +94,11 @@ function greatest(values) {
 function tellStory() {
   const items = [];
   const { metrics, frames } = run;
+  const nothing = metrics.tracked === 0 && run.kind !== "live";
   for (const problem of run.problems) items.push({ state: "lost", text: problem });
-  if (frames.count > 0 && metrics.tracked === 0 && run.kind !== "live") {
+  if (frames.count > 0 && nothing) {
     const all = { from: 0, to: frames.count - 1 };
-    items.push({ state: "lost", text: `No frame was tracked${because(all)}.` });
+    items.push({ state: "lost", text: `No frame was tracked${because(all)}.${adviceFor(all)}` });
   }
   if (frames.count === 0 && run.kind === "run") items.push({ state: "lost", text: "frames.csv holds no frame: nothing is shown over time." });
   if (metrics.interrupted) items.push({ state: "lost", text: `The run was interrupted after ${countOf(frames.count, "frame")}.` });
@@ -87,7 +107,9 @@ function tellStory() {
     const noted = (row) => ["lost", "uncertain", "fallback", "initialising"].includes(run.look(row)) && run.reason(row) !== "relocalised";
     const spans = spansOf(frames.count, (row) => (noted(row) ? run.look(row) : null));
     const told = (key) => spans.filter((s) => s.key === key).map((s) => spanStory(s, s.from === 0));
-    items.push(...told("initialising"), ...longest(told("lost"), 12, "without a pose"), ...longest(told("uncertain"), 4, "of the same"), ...longest(told("fallback"), 4, "of the same"));
+    items.push(...(nothing ? [] : told("initialising")), ...longest(told("lost"), 12, "without a pose"), ...longest(told("uncertain"), 4, "of the same"));
+    if (run.manhattanSeen) items.push(...longest(told("fallback"), 4, "of the same"));
+    else if (spans.some((span) => span.key === "fallback")) items.push({ state: "none", text: `${kWithoutManhattan[run.settings.preset] ?? "No Manhattan frame was found"}: points and lines gave all six degrees of freedom.` });
   }
   const marked = (column) => frames.has(column) ? Array.from({ length: frames.count }, (_, row) => row).filter((row) => frames.number(column, row) === 1) : [];
   for (const row of marked("loop_closed"))
@@ -95,9 +117,9 @@ function tellStory() {
   for (const row of marked("maps_joined"))
     items.push({ state: "manhattan", row, length: 1, text: `Two maps were joined: a place of an earlier map was recognised (${whereOf({ from: row, to: row })}).` });
   if (metrics.maps_apart > 0)
-    items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be joined with this one: no place was recognised in both. Those frames have no pose in the trajectory.` });
+    items.push({ state: "lost", text: `${countOf(metrics.maps_apart, "other map")}, with ${countOf(metrics.frames_apart, "frame")}, could not be joined with this one: no place was recognised in both. Those frames have no pose in the trajectory. Film the way between them again, and look around in a part that both show.` });
   const asked = metrics.normals_asked;
-  if (run.settings?.normals?.startsWith("on-demand") && asked) {
+  if (run.settings?.normals?.startsWith("on-demand") && asked && !nothing) {
     const why = Object.entries(asked.reasons).map(([reason, count]) => `${reason} (${count})`).join(", ");
     items.push({ state: "manhattan", text: asked.frames > 0 ? `Surface normals were computed for ${countOf(asked.frames, "frame")}: ${why}. Lines gave the rotation in the others.` : "Lines gave the rotation in every frame: no surface normals were computed." });
   }
@@ -129,7 +151,8 @@ function headline() {
   if (run.metrics.tracked === 0) return "No frame was tracked. The list below says why.";
   const parts = [lost === 0 ? "Never lost" : `Lost in ${countOf(lost, "frame")}`];
   if (uncertain > 0) parts.push(`${countOf(uncertain, "frame")} with an uncertain pose`);
-  parts.push(fallback === 0 ? `the Manhattan rotation is in the pose of every ${uncertain > 0 ? "other " : ""}frame with a map` : `${countOf(fallback, "frame")} without the Manhattan rotation`);
+  if (!run.manhattanSeen) parts.push("no Manhattan frame: points and lines gave all six degrees of freedom");
+  else parts.push(fallback === 0 ? `the Manhattan rotation is in the pose of every ${uncertain > 0 ? "other " : ""}frame with a map` : `${countOf(fallback, "frame")} without the Manhattan rotation`);
   return `${parts.join("; ")}.`;
 }
 

@@ -31,15 +31,15 @@ function showTimings() {
   const names = Object.keys(frames.columns).filter((name) => name.endsWith("_ms"));
   if (frames.count === 0 || names.length === 0) return;
   const number = (value) => element("td", { className: "number" }, figure(value));
-  const heads = ["median, ms", "95 %", "slowest"].map((text) => element("th", { className: "number" }, text));
-  const table = element("table", {}, element("tr", {}, element("th", {}, "stage"), ...heads, element("th", {}, "mean")));
+  const heads = ["median, ms", "95 %", "slowest", "mean"].map((text) => element("th", { className: "number" }, text));
+  const table = element("table", {}, element("tr", {}, element("th", {}, "stage"), ...heads, element("th", {})));
   const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
   const whole = Math.max(mean(frames.all("frame_ms")), 1e-9);
   for (const name of names) {
     const values = frames.all(name);
-    const bar = element("div", { style: `width: ${Math.min(100, 100 * mean(values) / whole)}%`, title: `${figure(mean(values))} ms` });
+    const bar = element("div", { style: `width: ${Math.min(100, 100 * mean(values) / whole)}%` });
     table.append(element("tr", { className: kSums.includes(name) ? "sum" : "" }, element("th", {}, name.replace(/_ms$/, "")), number(quantile(values, 0.5)), number(quantile(values, 0.95)),
-      number(quantile(values, 1)), element("td", { className: "share" }, bar)));
+      number(quantile(values, 1)), number(mean(values)), element("td", { className: "share" }, bar)));
   }
   byId("timings").append(table, element("p", { className: "quiet" },
     "Extraction is points and normals beside lines; tracking is rotation to mapping; a frame is both. Extraction runs ahead of tracking, so frames pass faster than one by one."));
@@ -52,7 +52,7 @@ function list(target, entries) {
 
 function showSettings() {
   const { parameters, ...settings } = run.settings;
-  const words = Object.entries(settings).filter(([, value]) => value !== "")
+  const words = Object.entries(settings).filter(([, value]) => value !== "" && value !== null)
     .map(([name, value]) => [name.replaceAll("_", " "), Array.isArray(value) ? value.map((x) => Number(Number(x).toPrecision(6))).join(", ") : value]);
   const versions = Object.entries(run.metrics.versions ?? {}).map(([name, value]) => [`version of ${name === "compiler" ? "the compiler" : name}`, value]);
   list("settings", [...words, ...versions]);

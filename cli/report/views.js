@@ -89,7 +89,8 @@ class Views {
     this.normalFigure.hidden = !this.view.normalImage;
     this.image.parentElement.style.aspectRatio = String(this.view.aspect);
     const away = this.view.row !== row ? `Picture of frame ${run.frames.text("index", this.view.row)}, the nearest kept. ` : "";
-    this.caption.textContent = `${away}${countOf(this.view.mapped, "point")} and ${countOf(this.view.lines.filter((line) => line.mapped).length, "segment")} belong to the map.`;
+    const segments = this.view.lines.filter((line) => line.mapped).length;
+    this.caption.textContent = away + (this.view.mapped + segments > 0 ? `${countOf(this.view.mapped, "point")} and ${countOf(segments, "segment")} belong to the map.` : "");
     this.sphere.show(this.view);
   }
 

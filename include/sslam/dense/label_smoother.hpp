@@ -60,6 +60,10 @@ class LabelSmoother {
   }
 
  private:
+  struct Crossing {
+    float inverse_depth, cost;
+  };
+
   // Along one of eight directions, in an order in which the block before it is done.
   void sweep(const CostGrid& costs, const ImageView<std::uint8_t>& grey, int block, int dx, int dy) {
     path_.assign(costs.cost.size(), 0);
@@ -82,14 +86,17 @@ class LabelSmoother {
     const float least = *std::min_element(last, last + labels);
     const auto crease = static_cast<float>(options.crease);
     const auto same = static_cast<float>(options.same_depth);
+    good_.clear();  // planes to come from at a crease: the others cost more than any change of plane
+    for (std::size_t m = 0; m + 1 < labels; ++m)
+      if (last[m] + crease < least + change)
+        good_.push_back({costs.inverse_depth[here + m], last[m] + crease});
     for (std::size_t l = 0; l < labels; ++l) {
       if (costs.cost[here + l] == kNoCost) continue;
       float best = std::min(last[l], least + change);
       const float inverse = costs.inverse_depth[here + l];
       if (l + 1 < labels && best > least + crease)
-        for (std::size_t m = 0; m + 1 < labels; ++m)
-          if (last[m] + crease < best && std::abs(costs.inverse_depth[here + m] - inverse) < same * inverse)
-            best = last[m] + crease;
+        for (const Crossing& from : good_)
+          if (std::abs(from.inverse_depth - inverse) < same * inverse) best = std::min(best, from.cost);
       path_[here + l] += best - least;
     }
   }
@@ -109,6 +116,7 @@ class LabelSmoother {
   }
 
   std::vector<float> path_, total_;
+  std::vector<Crossing> good_;
 };
 
 }  // namespace sslam::dense

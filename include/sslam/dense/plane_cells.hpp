@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sslam/dense/label_smoother.hpp"
@@ -110,14 +111,38 @@ class CellVoter {
     return true;
   }
 
+  // The columns of a row of cells, at base + c * across in the camera's frame, that may be in the picture:
+  // from the first to before the second.
+  [[nodiscard]] static std::pair<int, int> columns_in_view(const Pinhole<double>& k, const LabelGrid& grid,
+                                                           const Vec3<double>& base,
+                                                           const Vec3<double>& across, int columns) {
+    constexpr double kMargin = 1.5;  // half a pixel, and one for rounding
+    const double wide = grid.columns * grid.block - 1 + kMargin, high = grid.rows * grid.block - 1 + kMargin;
+    const Vec3<double> inside[] = {{0, 0, 1},  // positive in front of the camera, and within each border
+                                   {k.fx, 0, k.cx + kMargin},
+                                   {-k.fx, 0, wide - k.cx},
+                                   {0, k.fy, k.cy + kMargin},
+                                   {0, -k.fy, high - k.cy}};
+    double from = 0, to = columns;
+    for (const Vec3<double>& form : inside) {
+      const double value = form.dot(base), slope = form.dot(across);
+      if (slope > 0) from = std::max(from, -value / slope);
+      if (slope < 0) to = std::min(to, -value / slope);
+      if (slope == 0 && !(value > 0)) return {0, 0};
+    }
+    if (!(from <= to)) return {0, 0};
+    return {static_cast<int>(from), std::min(columns, static_cast<int>(to) + 1)};
+  }
+
   void add_view(std::size_t v, std::size_t p, PlaneCells& cells) const {
     const DenseView& view = views_[v];
     const LabelGrid& grid = labels_[v];
     const Vec3<double> first = view.cam_from_world * cells.centre(0, 0);
     const Vec3<double> across = view.cam_from_world.rotation * Vec3<double>(cells.cell * cells.basis.col(0)),
                        down = view.cam_from_world.rotation * Vec3<double>(cells.cell * cells.basis.col(1));
-    for (int r = 0; r < cells.rows; ++r)
-      for (int c = 0; c < cells.columns; ++c) {
+    for (int r = 0; r < cells.rows; ++r) {
+      const auto [from, to] = columns_in_view(view.pinhole, grid, first + r * down, across, cells.columns);
+      for (int c = from; c < to; ++c) {
         const Vec3<double> x = first + c * across + r * down;
         if (!(x.z() > 1e-9)) continue;
         const Vec2<double> pixel = view.pinhole.project(x);
@@ -133,6 +158,7 @@ class CellVoter {
           if (other < (1 - options_.margin) / x.z()) cells.contradiction[i] += 1;
         }
       }
+    }
   }
 
   std::span<const DenseView> views_;

@@ -61,18 +61,20 @@ inline void centre_patch(Patch& patch) {
   }
 }
 
-// Grey value between pixels; false outside of the image.
-[[nodiscard]] inline bool sample(const ImageView<std::uint8_t>& image, float x, float y, float& value) {
-  if (!(x >= 0 && y >= 0 && x < static_cast<float>(image.width() - 1) &&
-        y < static_cast<float>(image.height() - 1)))
-    return false;
+// Whether there are four pixels around a place.
+[[nodiscard]] inline bool holds(const ImageView<std::uint8_t>& image, float x, float y) {
+  return x >= 0 && y >= 0 && x < static_cast<float>(image.width() - 1) &&
+         y < static_cast<float>(image.height() - 1);
+}
+
+// Grey value between pixels, of a place that the image holds.
+[[nodiscard]] inline float sample(const ImageView<std::uint8_t>& image, float x, float y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
   const std::uint8_t *a = image.row(y0) + x0, *b = image.row(y0 + 1) + x0;
   const float top = static_cast<float>(a[0]) + fx * static_cast<float>(a[1] - a[0]);
   const float bottom = static_cast<float>(b[0]) + fx * static_cast<float>(b[1] - b[0]);
-  value = top + fy * (bottom - top);
-  return true;
+  return top + fy * (bottom - top);
 }
 
 }  // namespace detail
@@ -110,14 +112,19 @@ inline void centre_patch(Patch& patch) {
              vy = static_cast<float>((h(1, 1) - v * h(2, 1)) * w);
   const float scale = std::abs(ux * vy - uy * vx);
   if (!(scale > 0.15F && scale < 8)) return false;  // too far from the patch's own resolution
+  const auto at = [&](int dx, int dy) {
+    const auto fx = static_cast<float>(dx), fy = static_cast<float>(dy);
+    return Vec2<float>(static_cast<float>(u) + ux * fx + uy * fy, static_cast<float>(v) + vx * fx + vy * fy);
+  };
+  for (const int dy : {-Patch::kReach, Patch::kReach})  // the rest lies between the corners
+    for (const int dx : {-Patch::kReach, Patch::kReach})
+      if (const Vec2<float> corner = at(dx, dy); !detail::holds(other, corner.x(), corner.y())) return false;
   Patch seen;
   std::size_t i = 0;
   for (int dy = -Patch::kReach; dy <= Patch::kReach; ++dy)
     for (int dx = -Patch::kReach; dx <= Patch::kReach; ++dx, ++i) {
-      const auto fx = static_cast<float>(dx), fy = static_cast<float>(dy);
-      if (!detail::sample(other, static_cast<float>(u) + ux * fx + uy * fy,
-                          static_cast<float>(v) + vx * fx + vy * fy, seen.value[i]))
-        return false;
+      const Vec2<float> place = at(dx, dy);
+      seen.value[i] = detail::sample(other, place.x(), place.y());
     }
   detail::centre_patch(seen);
   float difference = 0;

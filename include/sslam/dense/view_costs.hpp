@@ -44,8 +44,10 @@ class ViewCosts {
         std::size_t i = 0;
         for (int dy = -Patch::kReach; dy <= Patch::kReach; ++dy)
           for (int dx = -Patch::kReach; dx <= Patch::kReach; ++dx, ++i)
-            if (!detail::sample(view.grey, static_cast<float>(at.x() + dx), static_cast<float>(at.y() + dy),
-                                patch.value[i]))
+            if (const Vec2<float> place((at + Vec2<double>(dx, dy)).cast<float>());
+                detail::holds(view.grey, place.x(), place.y()))
+              patch.value[i] = detail::sample(view.grey, place.x(), place.y());
+            else
               patch.value[i] = 0;
         detail::centre_patch(patch);
       }

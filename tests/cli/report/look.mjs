@@ -8,7 +8,7 @@ import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSyn
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, kNoGl, kSoftwareGl } from "./browser.mjs";
-import { useComparison } from "./use_comparison.mjs";
+import { pinchPaths, useComparison } from "./use_comparison.mjs";
 
 const [, , sslam, pictures] = process.argv;
 const scratch = mkdtempSync(join(tmpdir(), "sslam_report_"));
@@ -95,7 +95,8 @@ async function useSurfaces(page) {
   assert.ok(await page.run(`${hidden} > 0`));
   await page.click(await placeOf(page, "surface"));
   assert.match(await page.run("byId('picked').innerText"), /^Surface \d+.*m² were seen, at right angles to.*Fly there/s);
-  await page.run("byId('picked').querySelector('.close').click()");
+  await page.press("Escape");
+  assert.equal(await page.run("byId('picked').hidden"), true);
   const shown = await page.screenshot(picture("surfaces"));
   await page.run("document.querySelector('[data-layer=surfaces]').click()");
   assert.equal(await page.run(hidden), 0);
@@ -118,7 +119,9 @@ async function useMap(page) {
   await page.run("(() => { const size = byId('point-size'); size.value = 6; size.dispatchEvent(new Event('input')); })()");
   assert.equal(await page.run("view3d.materials.points.size"), 6);
   const state = await page.run("Array.from(view3d.layers.path.geometry.attributes.instanceColorStart.data.array).join()");
+  assert.match(await page.run("document.querySelector('.legend').innerText"), /Manhattan rotation.*squares of 1 m/s);
   await page.run("view3d.setPathColours('error')");
+  assert.match(await page.run("document.querySelector('.legend').innerText"), /error: 0.* m or more/s);
   assert.notEqual(await page.run("Array.from(view3d.layers.path.geometry.attributes.instanceColorStart.data.array).join()"), state);
   // A click tells what lies there.
   for (const [kind, words] of [["point", /^Point \d+.*seen by \d+ keyframes/s], ["line", /^Line \d+.*long, along/s], ["keyframe", /^Keyframe \d+.*sees \d+ points/s]]) {
@@ -153,11 +156,14 @@ async function useFiles(page) {
     offerFile = async (name, blob) => { offerFile = offer; resolve(name + " " + await blob.text()); };
     document.querySelector(".chart .save").click();
   })`);
-  assert.match(svg, /^position_error\.svg <svg .*<path d="M.*<text .*<\/svg>\n$/s);
+  assert.match(svg, /^position_error\.svg <svg .*>Position error, m<\/text>.*>after alignment<\/text>.*<path d="M.*<text .*<\/svg>\n$/s);
   await page.run("shown.set(17); linkToFrame()");
   assert.match(await page.run("location.hash"), /^#frame=17$/);
   assert.equal(await page.run("shown.set(3), firstRow()"), 17);
 }
+
+// Whether the time bar stands below the stage, and so covers nothing of it.
+const kBarIsFree = "document.querySelector('.stage-row').getBoundingClientRect().bottom <= document.querySelector('.timeline').getBoundingClientRect().top";
 
 // Images without anything in them, for which the camera is lost.
 async function blindFrames(page) {
@@ -186,9 +192,11 @@ async function main() {
   const browser = new Browser(kSoftwareGl);
   try {
     await look(browser, run, {}, async (page) => {
+      assert.equal(await page.run(kBarIsFree), true);
       await useMap(page);
       await useFiles(page);
     });
+    await look(browser, run, { size: { width: 1280, height: 600 } }, async (page) => { assert.equal(await page.run(kBarIsFree), true); });
     await look(browser, run, {}, async (page) => {
       await useTracked(page);
       await blindFrames(page);
@@ -207,13 +215,23 @@ async function main() {
       assert.equal(await page.run("run.surfaces === null && !document.querySelector('[data-layer=planes]').hidden"), await page.run("typeof THREE !== 'undefined'"));
       await page.screenshot(picture("lost"));
     });
+    const features = join(scratch, "features");
+    call(0, "run", room, "--quiet", "--preset", "features", "--out", features);
+    await look(browser, features, {}, async (page) => {
+      assert.match(await page.run("byId('headline').textContent"), /no Manhattan frame: points and lines gave/);
+      assert.match(await page.run("byId('story').textContent"), /The preset features uses no Manhattan frame/);
+      assert.equal(await page.run("byId('charts').textContent.includes('axes')"), false);
+    });
     const page = join(scratch, "compare.html");
     call(0, "report", run, lost, "-o", page);
     await look(browser, page, {}, async (open) => {
       await useComparison(open);
       await open.screenshot(picture("comparison"));
     });
-    await look(browser, page, { size: { width: 390, height: 844 }, dark: true }, async (phone) => { await phone.screenshot(picture("comparison_phone")); });
+    await look(browser, page, { size: { width: 390, height: 844 }, dark: true }, async (phone) => {
+      await phone.screenshot(picture("comparison_phone"));
+      await pinchPaths(phone);
+    });
     damage(lost);
     await look(browser, lost, {}, async (page) => {
       assert.match(await page.run("byId('story').textContent"), /map\.sslam: is missing.*views\.bin: is cut off/);
@@ -221,7 +239,9 @@ async function main() {
       await page.screenshot(picture("damaged"));
     });
     await look(browser, none, {}, async (page) => {
-      assert.match(await page.run("byId('story').textContent"), /No frame was tracked/);
+      assert.match(await page.run("byId('story').textContent"), /^No frame was tracked: /);
+      assert.equal(await page.run("document.querySelector('.stage').hidden"), true);
+      await page.until("views.image.naturalWidth > 0");
       await page.press("End");
       await page.screenshot(picture("none"));
     });

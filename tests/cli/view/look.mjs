@@ -73,6 +73,10 @@ async function watch(page, run, three) {
   assert.ok(await page.run("document.querySelectorAll('#charts .chart').length >= 3"));
   assert.match(await page.run("document.querySelector('.chart .value').textContent"), /^\d+$/);
   assert.ok(await page.run("views.view.points.length > 50 && views.texts.length >= 3"));
+  if (pictures) {  // that show more of a map
+    await trackUntil(run, page, kFrames - 15);
+    await page.until("views.view.row === shown.row && views.image.complete");
+  }
   await page.screenshot(picture(three ? "live" : "flat"));
 }
 

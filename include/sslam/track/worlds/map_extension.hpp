@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "sslam/track/mapping/keyframe_cursor.hpp"
+#include "sslam/track/matching/frame_turn.hpp"
 #include "sslam/track/worlds/neighbour_tracking.hpp"
 #include "sslam/track/worlds/trajectory_log.hpp"
 
@@ -54,9 +56,7 @@ class MapExtension {
     for (std::ptrdiff_t i = last + step; i != end && step * (i - last) <= max_misses + 1; i += step) {
       Frame<S> frame = look(static_cast<std::size_t>(i), cursor_.reference());
       frame_.adopt(frame);
-      frame_.cam_from_world = previous_.cam_from_world;
-      const PoseEstimate<S> estimate =
-          neighbours_.track(previous_, previous_, map, stages.fallback, stages.refinement, frame_);
+      const PoseEstimate<S> estimate = track(at(frames, last), map, stages);
       if (!estimate.ok()) continue;
       if (stages.certainty.certain(estimate))
         cursor_.advance(map, frame_, estimate, stages.keyframes,
@@ -65,6 +65,21 @@ class MapExtension {
       previous_.read_back(frame_);
       last = i;
     }
+  }
+
+  // Starts from where `last`, the frame before, is; then, if that fails, with the turn since then that the
+  // features of both frames show.
+  template <class Stages>
+  [[nodiscard]] PoseEstimate<S> track(const Frame<S>& last, Map<S>& map, Stages& stages) {
+    const auto track_from = [&](const SE3<S>& pose) {
+      frame_.forget_matches();
+      frame_.cam_from_world = pose;
+      return neighbours_.track(previous_, previous_, map, stages.fallback, stages.refinement, frame_);
+    };
+    const PoseEstimate<S> estimate = track_from(previous_.cam_from_world);
+    if (estimate.ok()) return estimate;
+    const std::optional<SO3<S>> turn = turn_.between(last, frame_.frame);
+    return turn ? track_from(turned(*turn, previous_.cam_from_world)) : estimate;
   }
 
   // The position, from `edge` away from the gap, of the first frame that is a keyframe, or before which
@@ -87,6 +102,7 @@ class MapExtension {
 
   TrackedFrame<S> frame_, previous_;  // of the latter the matches and the pose alone
   NeighbourTracking<S> neighbours_;
+  FrameTurn<S> turn_;
   KeyframeCursor<S> cursor_;
 };
 
