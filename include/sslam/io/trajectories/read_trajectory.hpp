@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trajectories as programs write them, told by their rows: TUM, EuRoC, KITTI with its times, 4x4 matrices,
-// also with the heads of Open3D, the vertices of g2o.
+// also with the heads of Open3D, the vertices of g2o, the .traj files of ARKitScenes.
 #pragma once
 
 #include <algorithm>
@@ -83,6 +83,7 @@ namespace trajectory_detail {
                                          std::string_view head, const std::filesystem::path& path,
                                          Warnings& warnings) {
   if (width == 12 || width == 16) return RowLayout::kMatrix;
+  if (width == 7 && path.extension() == ".traj") return RowLayout::kAxisAngle;
   if (width == 13 || std::any_of(rows.begin(), rows.end(), ends_as_matrix)) return RowLayout::kStampedMatrix;
   if (width == 7 && std::all_of(rows.begin(), rows.end(), [](const TextRow& row) {
         return row.cells.size() != 7 || ends_as_quaternion(row);
