@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,13 @@ struct CameraFile {
 }
 
 namespace detail {
+
+// The first of these is the answer, with the others beside it.
+[[nodiscard]] inline CameraFile one_of(std::vector<CameraFile> cameras) {
+  CameraFile first = std::move(cameras.front());
+  first.others.assign(std::make_move_iterator(cameras.begin() + 1), std::make_move_iterator(cameras.end()));
+  return first;
+}
 
 [[nodiscard]] inline std::string short_text(double value) {
   char text[32];

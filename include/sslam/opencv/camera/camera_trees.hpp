@@ -10,6 +10,7 @@
 #include "sslam/opencv/camera/matrix_cameras.hpp"
 #include "sslam/opencv/camera/named_cameras.hpp"
 #include "sslam/opencv/camera/photo_cameras.hpp"
+#include "sslam/opencv/camera/sensor_cameras.hpp"
 #include "sslam/opencv/camera/slam_cameras.hpp"
 
 namespace sslam {
@@ -38,6 +39,8 @@ namespace detail {
     if (keys.has("cam0_calib")) refuse_vins_settings(keys);
     if (keys.has("value0")) return read_basalt(keys);
     if (is_depthai(root)) return read_depthai(keys);
+    if (is_azure_kinect(root)) return read_azure_kinect(keys);
+    if (is_openloris_sensors(root)) return read_openloris(keys);
     if (const TextNode* const node = root.find("fisheye_params");
         node != nullptr && node->has("camera_matrix"))
       return read_gyroflow(keys);
@@ -54,7 +57,7 @@ namespace detail {
     return std::any_of(root.keys.begin(), root.keys.end(),
                        [prefix](const std::string& key) { return key.starts_with(prefix); });
   };
-  if (starts("Camera.") || starts("Camera1.")) return read_orb_slam(keys, keys, "Camera.");
+  if (starts("Camera.") || !numbered_camera(root).empty()) return read_orb_slam(keys, keys, "Camera.");
   if (const TextNode* const nested = root.find("Camera"); nested != nullptr && nested->has("model"))
     return read_orb_slam(CameraKeys(*nested, file, "Camera."), keys, "");
   const CameraKeys::Names matrices{"camera_matrix",
