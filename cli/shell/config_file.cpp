@@ -179,7 +179,7 @@ void add_config_option(CLI::App& command, std::map<std::string, std::string>* pl
           "--config",
           [&command, places](const std::string& file) { ConfigReader(command, file, places).apply(); },
           "TOML file of options; a table [set] for parameters")
-      ->check(CLI::ExistingFile);
+      ->type_name("FILE");
 }
 
 }  // namespace sslam::cli

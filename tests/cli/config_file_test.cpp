@@ -70,7 +70,7 @@ TEST_CASE("options in a file: each kind of value, and the command line wins") {
   CHECK(command.topics == std::vector<std::string>{"a", "b"});
   REQUIRE(command.set.size() == 3);
   CHECK(command.places.size() == 2);
-  CHECK(command.places["keyframes.max_turn=9"].ends_with("run.toml: line 8: "));
+  CHECK(command.places["keyframes.max_turn=9"].ends_with("run.toml: line 9: "));
   CHECK(command.set.back() == "keyframes.max_turn=10");
   Command other;
   CHECK(other.read("end = 40\nlive = false\nfps = 12\n", "--end 3").empty());

@@ -396,6 +396,40 @@ TEST_CASE("OpenLORIS: its sensors by name, with fx cx fy cy") {
                 "expected the four numbers fx cx fy cy");
 }
 
+TEST_CASE("A camera below the names of its numbers, with a word before them, or as cam_K") {
+  using namespace program_cameras_test;
+  check_plane(read_as("fx,fy,cx,cy\n461.5,460.25,363,248.5\n"), kPlane, 0, 0);
+  const CameraFile named = read_as("# width height fx fy cx cy k1\n752 480 461.5 460.25 363 248.5 -0.25\n");
+  check_plane(named, kPlane, 752, 480);
+  CHECK(named.camera.distortion.k1 == -0.25);
+  check_refusal("fx fy cx\n461.5 460.25 363\n", "cy is missing");
+  check_plane(read_as("{\"cam_K\": [461.5, 0, 363, 0, 460.25, 248.5, 0, 0, 1], \"depth_scale\": 1.0}"),
+              kPlane, 0, 0);
+  const CameraFile prefixed = read_as(
+      "rgb_fx: 461.5\nrgb_fy: 460.25\nrgb_cx: 363\nrgb_cy: 248.5\nrgb_k1: -0.25\nwidth: 752\nheight: 480\n");
+  check_plane(prefixed, kPlane, 752, 480);
+  CHECK(prefixed.camera.distortion.k1 == -0.25);
+  CHECK(prefixed.notes.size() == 1);
+  check_refusal("a_fx: 1\na_fy: 1\na_cx: 1\na_cy: 1\nb_fx: 1\nb_fy: 1\nb_cx: 1\nb_cy: 1\n",
+                "has several cameras: a_fx, b_fx");
+}
+
+TEST_CASE("A list of coefficients that is cut off or may mean two things is refused") {
+  using namespace program_cameras_test;
+  const auto ros = [](const std::string& coefficients) {
+    return "image_width: 752\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+           "  data: [461.5, 0, 363, 0, 460.25, 248.5, 0, 0, 1]\ndistortion_model: plumb_bob\n"
+           "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [" +
+           coefficients + "]\n";
+  };
+  check_lens(read_as(ros("-0.25, 0.125, 0.001, -0.002, 0.5")), {-0.25, 0.125, 0.001, -0.002, 0.5});
+  check_refusal(ros("-0.25, 0.125, 0.001"), "has 3 numbers, and by its rows and cols 5");
+  check_refusal(
+      "{\"camera_matrix\": [[461.5, 0, 363], [0, 460.25, 248.5], [0, 0, 1]], \"dist_coeff\": [-0.25, 0.125, "
+      "0.5]}",
+      "the distortion has 3 coefficients, which may be k1 k2 k3 or k1 k2 p1");
+}
+
 TEST_CASE("What calibration programs write beside their camera file is refused with the file's name") {
   using program_cameras_test::check_refusal;
   check_refusal("# oST version 5.0 parameters\n\n\n[image]\n\nwidth\n640\n",

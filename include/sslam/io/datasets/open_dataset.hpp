@@ -146,6 +146,7 @@ inline constexpr std::array<FolderLayout, 19> kFolderLayouts{{
                                           const OpenOptions& options = {}) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
+  if (path.empty()) throw Error("the name of the dataset is empty; expected a folder, a video or a bag");
   if (!std::filesystem::exists(status)) {
     if (has_wildcards(path.string())) return read_image_glob(path, options.frame_rate);
     if (const auto pattern = number_pattern(path.filename().string()))
