@@ -214,7 +214,7 @@ void add_run_options(CLI::App& command, RunSettings& settings) {
 void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Track a sequence: trajectory, map, figures and pictures");
   auto settings = std::make_shared<RunSettings>();
-  add_config_option(*command);
+  add_config_option(*command, &settings->set_places);
   add_run_options(*command, *settings);
   auto resume = std::make_shared<std::string>();
   const auto resumes = [command, resume](const std::string& folder) {

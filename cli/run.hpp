@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,7 +51,8 @@ struct RunSettings {
   std::string scale = "none";  // as parse_scale takes it
   std::string out = "out";
   io::Slice slice;
-  std::vector<std::string> set;  // stage.parameter=value
+  std::vector<std::string> set;                   // stage.parameter=value
+  std::map<std::string, std::string> set_places;  // of those that a file gave: "FILE: line N: "
   std::uint64_t seed = 1;
   bool live = false;       // mapping in a thread of its own, frames when a camera would deliver them
   int longest_side = 960;  // of the images as they are worked on, pixels

@@ -48,7 +48,10 @@ io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions
   if (!bag && !(topics.images.empty() && topics.depth.empty()))
     throw Error(path.string() + ": is no bag, so it has no topics; leave --topic and --depth-topic out");
   if (bag) list_bag_frames(dataset, topics);
-  if (dataset.layout == io::Layout::kVideo) list_video_frames(dataset, at_most);
+  if (dataset.layout == io::Layout::kVideo) {
+    list_video_frames(dataset, at_most);
+    io::complete_stray_scan(dataset);
+  }
   return dataset;
 }
 

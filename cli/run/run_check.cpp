@@ -111,12 +111,21 @@ CheckpointClock checkpoint_clock(const RunSettings& settings) {
   return settings.checkpoint ? CheckpointClock(*settings.checkpoint, 0) : CheckpointClock(60, 100);
 }
 
-std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set) {
+std::vector<ParameterValue> set_parameters(const Preset& preset, const std::vector<std::string>& set,
+                                           const std::map<std::string, std::string>& places) {
   std::vector<ParameterValue> overrides;
-  for (const std::string& text : set) overrides.push_back(parse_override(text));
   ParameterTable table = all_parameters(preset);
-  const ParameterAnswer answer = sslam::set_parameters(overrides, table);
-  if (!answer.ok()) throw UsageError("--set " + answer.message);
+  const auto demand = [&places](const ParameterAnswer& answer, const std::string& text) {
+    if (answer.ok()) return;
+    const auto place = places.find(text);
+    if (place != places.end()) throw Error(place->second + "[set] " + answer.message);
+    throw UsageError("--set " + answer.message);
+  };
+  for (const std::string& text : set) {
+    overrides.push_back(parse_override(text));
+    demand(table.set(overrides.back().name, overrides.back().value), text);
+  }
+  demand(table.check(), set.empty() ? std::string() : set.back());  // of several against each other
   return overrides;
 }
 

@@ -3,6 +3,7 @@
 // `sslam batch` all of its runs. Everything here throws a std::exception with one line.
 #pragma once
 
+#include <map>
 #include <opencv2/core.hpp>
 #include <string>
 
@@ -42,9 +43,11 @@ void check_wide(const RunSettings& settings, const CameraChoice& camera);
 // When the run's checkpoints are due, if any are made.
 [[nodiscard]] CheckpointClock checkpoint_clock(const RunSettings& settings);
 
-// Each "stage.parameter=value", if the preset has all these parameters and they take these values.
-[[nodiscard]] std::vector<ParameterValue> set_parameters(const Preset& preset,
-                                                         const std::vector<std::string>& set);
+// Each "stage.parameter=value", if the preset has all these parameters and they take these values. `places`:
+// of those that stand in a file, where; what is wrong with one is then an Error that begins with it.
+[[nodiscard]] std::vector<ParameterValue> set_parameters(
+    const Preset& preset, const std::vector<std::string>& set,
+    const std::map<std::string, std::string>& places = {});
 
 // Every parameter of the fullest preset by stage: name, default, unit, range and meaning, a line each.
 [[nodiscard]] std::string describe_parameters();

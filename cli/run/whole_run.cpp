@@ -57,7 +57,7 @@ void WholeRun::open() {
   const Preset& preset = choose_preset(settings_.preset);
   check_live(settings_, preset);
   if (settings_.normals.empty()) choose_normals_source(preset);
-  parameters_ = set_parameters(preset, settings_.set);
+  parameters_ = set_parameters(preset, settings_.set, settings_.set_places);
   scale_ = parse_scale(settings_.scale);
   checkpoints_ = checkpoint_clock(settings_);
   goes_on_ = !settings_.map.empty();

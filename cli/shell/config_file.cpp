@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,7 +61,8 @@ std::string found_text(const toml::node& node) {
 
 class ConfigReader {
  public:
-  ConfigReader(CLI::App& command, const std::string& file) : command_(command), file_(file) {}
+  ConfigReader(CLI::App& command, const std::string& file, std::map<std::string, std::string>* places)
+      : command_(command), file_(file), places_(places) {}
 
   void apply() {
     const std::string text = read_toml_text(file_);
@@ -159,22 +161,25 @@ class ConfigReader {
       const std::vector<std::string> given = option.results();
       option.clear();
       option.add_result(name + "=" + value);
+      if (places_ != nullptr) (*places_)[name + "=" + value] = at(key.source().begin.line);
       option.add_result(given);
     }
   }
 
   CLI::App& command_;
   std::string file_;
+  std::map<std::string, std::string>* places_;
 };
 
 }  // namespace
 
-void add_config_option(CLI::App& command) {
+void add_config_option(CLI::App& command, std::map<std::string, std::string>* places) {
   command
       .add_option_function<std::string>(
-          "--config", [&command](const std::string& file) { ConfigReader(command, file).apply(); },
+          "--config",
+          [&command, places](const std::string& file) { ConfigReader(command, file, places).apply(); },
           "TOML file of options; a table [set] for parameters")
-      ->check(CLI::ExistingFile);
+      ->type_name("FILE");
 }
 
 }  // namespace sslam::cli

@@ -30,6 +30,10 @@ foreach(options "--fps;nan" "--focal;nan" "--fov;-nan" "--retry;nan" "--read-out
 endforeach()
 sslam_cli_test(NAME "no number for eval --offset" ARGS eval a b --offset nan CODE 2 ERR "^sslam: error: --offset: 'nan' is not a number")
 sslam_cli_test(NAME "a seed below 0" ARGS run room --seed -1 CODE 2 ERR "^sslam: error: --seed: '-1' is not a whole number from 0 on")
+# A parameter that no stage has, in a file: bad input, and told with the file. On the command line it is a wrong one.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/parameters.toml "end = 2\n[set]\nkeyframes.max_turm = 9\n")
+sslam_cli_test(NAME "an unknown parameter in a file of options" ARGS run nowhere --config ${CMAKE_CURRENT_BINARY_DIR}/parameters.toml CODE 1
+               ERR "^sslam: error: [^\n]*parameters.toml: line 3: .set. [^\n]*keyframes.max_turm[^\n]*keyframes.max_turn[^\n]*\n$")
 # Options in a file as Windows' editors write it.
 string(ASCII 239 187 191 mark)
 string(ASCII 13 10 line_end)

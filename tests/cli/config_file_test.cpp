@@ -27,11 +27,12 @@ struct Command {
   bool live = false;
   std::string out, port;
   std::vector<std::string> set, topics;
+  std::map<std::string, std::string> places;
   const std::map<std::string, int> levels{{"low", 1}, {"high", 2}};
 
   Command() {
     CLI::App* const run = app.add_subcommand("run", "");
-    cli::add_config_option(*run);
+    cli::add_config_option(*run, &places);
     run->add_option("--end", end, "");
     run->add_option("--fps", fps, "")->check(CLI::PositiveNumber);
     run->add_flag("--live", live, "");
@@ -68,6 +69,8 @@ TEST_CASE("options in a file: each kind of value, and the command line wins") {
   CHECK(command.level == 2);
   CHECK(command.topics == std::vector<std::string>{"a", "b"});
   REQUIRE(command.set.size() == 3);
+  CHECK(command.places.size() == 2);
+  CHECK(command.places["keyframes.max_turn=9"].ends_with("run.toml: line 9: "));
   CHECK(command.set.back() == "keyframes.max_turn=10");
   Command other;
   CHECK(other.read("end = 40\nlive = false\nfps = 12\n", "--end 3").empty());

@@ -74,8 +74,8 @@ struct CameraCheck {
     return check;
   }
   // Shares of the image's width and height, from its middle.
-  const double off =
-      std::max(std::abs((p.cx + 0.5) / camera.width - 0.5), std::abs((p.cy + 0.5) / camera.height - 0.5));
+  const auto off_middle = [](double place, int pixels) { return std::abs((place + 0.5) / pixels - 0.5); };
+  const double off = std::max(off_middle(p.cx, camera.width), off_middle(p.cy, camera.height));
   constexpr double kFarOff = 0.25, kOff = 0.12;
   if (!(off < kFarOff)) {
     check.fault = told(
@@ -105,9 +105,13 @@ struct CameraCheck {
   if (folded > 0)
     check.doubts.push_back(
         told("the distortion turns back in %.1f %% of the image: these corners are of no use", 100 * folded));
-  if (off > kOff)
+  if (off > kOff) {
     check.doubts.push_back(told("the principal point (%g, %g) is off the middle of %dx%d images", p.cx, p.cy,
                                 camera.width, camera.height));
+    constexpr double kNear = 0.05;
+    if (off_middle(p.cy, camera.width) < kNear && off_middle(p.cx, camera.height) < kNear)
+      check.doubts.back() += ": are cx and cy exchanged?";
+  }
   if (oblong > kOblong)
     check.doubts.push_back(told("fx %g and fy %g differ by a factor of %.2g", p.fx, p.fy, oblong));
   constexpr double kStretched = 1.3;  // pincushion distortion of real lenses is weaker

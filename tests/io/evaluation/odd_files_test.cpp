@@ -92,12 +92,28 @@ TEST_CASE("Quaternions with w first are told of a camera that hardly turns, too"
   CHECK(notes_of(truth, truth).empty());
 }
 
+TEST_CASE("Rows with a remark behind them, with zero bytes, or without a rotation") {
+  CHECK(read_rows("1 0 2 3 0 0 0 1  # the door\n2 0 2 3 0 0 0 1 #\n").size() == 2);
+  const std::string zero =
+      error_of([] { (void)read_rows(std::string("1 0 2 3 0 0 0 1\0x\n2 0 2 3 0 0 0 1\0x\n", 36)); });
+  CHECK(contains(zero, "'1?x' is not a number"));
+  std::string positions;
+  for (int i = 0; i < 8; ++i) positions += std::to_string(i) + " 0.5 2 3\n";
+  CHECK(contains(error_of([&] { (void)read_rows(positions); }),
+                 "line 1: has a stamp and a position, and no rotation"));
+  // Matrices over four rows each have rows of four numbers, too.
+  const ScratchFolder scratch;
+  io::Warnings warnings;
+  const std::string matrix = "1 0 0 5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+  CHECK(io::read_pose_file(scratch.write("poses.txt", matrix + matrix), warnings).trajectory.size() == 2);
+}
+
 TEST_CASE("Where few stamps agree, the message tells from when to when both go") {
   io::Trajectory counted = side_walk(20);
   for (std::size_t i = 0; i < counted.size(); ++i) counted[i].stamp = static_cast<double>(i);
   const std::string error = error_of([&] { (void)io::evaluate(side_walk(20), counted); });
   CHECK(contains(error, "alignment needs at least 3 pairs of poses, found 2"));
-  CHECK(contains(error, "those of the estimate from 0. to 19."));
+  CHECK(contains(error, "those of the estimate from 0 to 19"));
 }
 
 }  // namespace odd_files_test

@@ -43,6 +43,7 @@ TEST_CASE("Decimals read back as the same double and as published") {
   CHECK(io::exact_decimal(1341836537.8070) == "1341836537.807000");
   CHECK(io::exact_decimal(2) == "2.000000");
   CHECK(io::exact_decimal(0.02, 0) == "0.02");
+  CHECK(io::exact_decimal(3, 0) == "3");
   CHECK(io::exact_decimal(-0.0333333333333, 3) == "-0.0333333333333");
   for (const double value : {1.0 / 3, 1403636579.763555527, 1e-9, 0.1 + 0.2}) {
     CHECK(io::parse_number<double>(io::exact_decimal(value)).value() == value);

@@ -322,6 +322,114 @@ TEST_CASE("Cameras of SVO, mrcal, Gyroflow, MonoGS, a stereo pair of OpenCV and 
   check_refusal("461.5 460.25 363 248.5 0.1 0.2\n", "rows of numbers that are no calibration");
 }
 
+TEST_CASE("Several cameras by ORB-SLAM3's numbers: the first is taken, and that is told") {
+  using namespace program_cameras_test;
+  const auto camera = [](const std::string& name, const std::string& fx) {
+    return name + ".fx: " + fx + "\n" + name + ".fy: 460.25\n" + name + ".cx: 363\n" + name + ".cy: 248.5\n" +
+           name + ".k1: -0.25\n" + name + ".k2: 0.125\n" + name + ".p1: 0.001\n" + name + ".p2: -0.002\n";
+  };
+  const std::string head = "%YAML:1.0\n---\nCamera.type: \"PinHole\"\n",
+                    size = "Camera.width: 752\nCamera.height: 480\n";
+  for (const char* first : {"Camera0", "Camera1"}) {
+    const CameraFile file = read_as(head + camera("Camera2", "400") + camera(first, "461.5") + size);
+    check_plane(file, kPlane, 752, 480);
+    check_lens(file, {-0.25, 0.125, 0.001, -0.002, 0});
+    REQUIRE(file.notes.size() == 1);
+    CHECK(file.notes[0].find(std::string("the first, ") + first + ".fx") != std::string::npos);
+  }
+  CHECK(read_as(head + camera("Camera0", "461.5") + size).notes.empty());
+}
+
+TEST_CASE("Azure Kinect's raw calibration: parts of a sensor of 4:3, whose middle is the image of 16:9") {
+  using namespace program_cameras_test;
+  const auto kinect = [](const std::string& numbers) {
+    return "{\"CalibrationInformation\":{\"Cameras\":[{\"Intrinsics\":{\"ModelParameterCount\":14,"
+           "\"ModelParameters\":"
+           "[0.9,0.9,0.4,0.4,0,0,0,0,0,0,0,0,0,0],\"ModelType\":\"CALIBRATION_"
+           "LensDistortionModelBrownConrady\"},"
+           "\"Location\":\"CALIBRATION_CameraLocationD0\",\"Purpose\":\"CALIBRATION_CameraPurposeDepth\"},"
+           "{\"Intrinsics\":{\"ModelParameterCount\":14,\"ModelParameters\":[" +
+           numbers +
+           "],\"ModelType\":\"CALIBRATION_LensDistortionModelBrownConrady\"},"
+           "\"Location\":\"CALIBRATION_CameraLocationPV0\",\"Purpose\":\"CALIBRATION_"
+           "CameraPurposePhotoVideo\"}]}}";
+  };
+  const CameraFile file =
+      read_as(kinect("0.5,0.5078125,0.4765625,0.6328125,0.125,0,0,0,0,0,0,0,-0.002,0.001"));
+  CHECK(file.name == "color_4x3");
+  check_plane(file, {1952, 1944, 2047.5, 1559.5}, 4096, 3072);
+  CHECK(std::abs(file.camera.distortion.p1 - 0.001) < 1e-4);  // by a fit
+  CHECK(std::abs(file.camera.distortion.p2 + 0.002) < 1e-4);
+  REQUIRE(file.others.size() == 1);
+  check_plane(file.others[0], {1830, 1822.5, 1919.5, 1102}, 3840, 2160);
+  check_refusal(kinect("0.5,0.5,0.4,0.6,0,0,0,0,0,0,0.1,0,0,0"), "its centre of distortion is moved");
+  check_refusal(kinect("960,540,900,900,0,0,0,0,0,0,0,0,0,0"), "the first four as parts of the sensor");
+  check_refusal("{\"CalibrationInformation\":{\"Cameras\":[]}}", "has no colour camera");
+}
+
+TEST_CASE("OpenLORIS: its sensors by name, with fx cx fy cy") {
+  using namespace program_cameras_test;
+  const auto sensor = [](const std::string& name, const std::string& numbers, int height,
+                         const std::string& model) {
+    return name + ":\n   sensor_type: camera\n   sensor_name: " + name +
+           "\n   fps: 30\n   width: 752\n   height: " + std::to_string(height) +
+           "\n   model: pinhole\n   intrinsics: !!opencv-matrix\n      rows: 1\n      cols: 4\n"
+           "      dt: d\n      data: [ " +
+           numbers + " ]\n   distortion_model: " + model +
+           "\n   distortion_coefficients: !!opencv-matrix\n      rows: 1\n      cols: 5\n      dt: d\n"
+           "      data: [ 0., 0., 0., 0., 0. ]\n";
+  };
+  const std::string head = "%YAML:1.0\n",
+                    imu = "d400_gyroscope:\n   sensor_type: gyroscope\n   sensor_name: d400_gyroscope\n";
+  const std::string colour =
+      sensor("d400_color_optical_frame", "461.5, 363., 460.25, 248.5", 480, "radial-tangential");
+  const CameraFile file = read_as(
+      head + imu + sensor("d400_depth_optical_frame", "400., 363., 400., 248.5", 480, "none") + colour +
+      sensor("t265_fisheye1_optical_frame", "285., 420., 286., 398.", 800, "Kannala-Brandt"));
+  CHECK(file.name == "d400_color_optical_frame");
+  check_plane(file, kPlane, 752, 480);
+  REQUIRE(file.others.size() == 1);
+  CHECK(file.others[0].name == "t265_fisheye1_optical_frame");
+  CHECK(file.others[0].camera.pinhole.cx == 420);
+  check_plane(read_as(head + sensor("color", "461.5, 460.25, 363., 248.5", 480, "none")), kPlane, 752, 480);
+  check_refusal(head + sensor("color", "461.5, 0., 363., 248.5", 480, "none"),
+                "expected the four numbers fx cx fy cy");
+}
+
+TEST_CASE("A camera below the names of its numbers, with a word before them, or as cam_K") {
+  using namespace program_cameras_test;
+  check_plane(read_as("fx,fy,cx,cy\n461.5,460.25,363,248.5\n"), kPlane, 0, 0);
+  const CameraFile named = read_as("# width height fx fy cx cy k1\n752 480 461.5 460.25 363 248.5 -0.25\n");
+  check_plane(named, kPlane, 752, 480);
+  CHECK(named.camera.distortion.k1 == -0.25);
+  check_refusal("fx fy cx\n461.5 460.25 363\n", "cy is missing");
+  check_plane(read_as("{\"cam_K\": [461.5, 0, 363, 0, 460.25, 248.5, 0, 0, 1], \"depth_scale\": 1.0}"),
+              kPlane, 0, 0);
+  const CameraFile prefixed = read_as(
+      "rgb_fx: 461.5\nrgb_fy: 460.25\nrgb_cx: 363\nrgb_cy: 248.5\nrgb_k1: -0.25\nwidth: 752\nheight: 480\n");
+  check_plane(prefixed, kPlane, 752, 480);
+  CHECK(prefixed.camera.distortion.k1 == -0.25);
+  CHECK(prefixed.notes.size() == 1);
+  check_refusal("a_fx: 1\na_fy: 1\na_cx: 1\na_cy: 1\nb_fx: 1\nb_fy: 1\nb_cx: 1\nb_cy: 1\n",
+                "has several cameras: a_fx, b_fx");
+}
+
+TEST_CASE("A list of coefficients that is cut off or may mean two things is refused") {
+  using namespace program_cameras_test;
+  const auto ros = [](const std::string& coefficients) {
+    return "image_width: 752\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+           "  data: [461.5, 0, 363, 0, 460.25, 248.5, 0, 0, 1]\ndistortion_model: plumb_bob\n"
+           "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [" +
+           coefficients + "]\n";
+  };
+  check_lens(read_as(ros("-0.25, 0.125, 0.001, -0.002, 0.5")), {-0.25, 0.125, 0.001, -0.002, 0.5});
+  check_refusal(ros("-0.25, 0.125, 0.001"), "has 3 numbers, and by its rows and cols 5");
+  check_refusal(
+      "{\"camera_matrix\": [[461.5, 0, 363], [0, 460.25, 248.5], [0, 0, 1]], \"dist_coeff\": [-0.25, 0.125, "
+      "0.5]}",
+      "the distortion has 3 coefficients, which may be k1 k2 k3 or k1 k2 p1");
+}
+
 TEST_CASE("What calibration programs write beside their camera file is refused with the file's name") {
   using program_cameras_test::check_refusal;
   check_refusal("# oST version 5.0 parameters\n\n\n[image]\n\nwidth\n640\n",

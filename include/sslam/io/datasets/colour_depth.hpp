@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sslam/geometry/camera.hpp"
+#include "sslam/io/datasets/body_poses.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/image_folder.hpp"
@@ -99,8 +100,9 @@ inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& f
 }
 
 // A pose a row: of the images in order where there are as many, else row N of image N. Stamps are taken where
-// the file has them.
-inline void attach_pose_rows(Dataset& dataset, const std::filesystem::path& file) {
+// the file has them. `pose_from_cam`: where the poses' axes are not the camera's.
+inline void attach_pose_rows(Dataset& dataset, const std::filesystem::path& file,
+                             const SE3<double>& pose_from_cam = {}) {
   try {
     PoseFile poses = read_pose_file(file, dataset.warnings);
     const bool in_order = poses.trajectory.size() + poses.no_pose == dataset.frames.size();
@@ -116,7 +118,7 @@ inline void attach_pose_rows(Dataset& dataset, const std::filesystem::path& file
       if (poses.counted && stamp != stamps.end()) truth.push_back({stamp->second, pose.world_from_cam});
     }
     order_by_stamp(truth, file, dataset.warnings);
-    attach_ground_truth(dataset, std::move(truth), file);
+    attach_body_truth(dataset, std::move(truth), pose_from_cam, file);
   } catch (const Error& error) {
     leave_truth_out(dataset, error.what());
   }

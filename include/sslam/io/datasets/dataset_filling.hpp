@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sslam/io/datasets/dataset.hpp"
+#include "sslam/io/datasets/file_list.hpp"
 #include "sslam/io/evaluation/association.hpp"
 #include "sslam/io/evaluation/same_clock.hpp"
 #include "sslam/io/files/bad_entries.hpp"
@@ -122,6 +123,18 @@ inline void drop_bad_frames(Dataset& dataset, const std::filesystem::path& sourc
   tell_repeated_images(dataset, source);
   for (std::size_t i = 0; i < dataset.frames.size(); ++i)
     dataset.frames[i].index = static_cast<std::int64_t>(i);
+}
+
+// The images that a list names.
+inline void take_listed_frames(Dataset& dataset, std::vector<StampedFile> files,
+                               const std::filesystem::path& list) {
+  for (StampedFile& file : files) {
+    FrameEntry frame;
+    frame.stamp = file.stamp;
+    frame.image = std::move(file.file);
+    dataset.frames.push_back(std::move(frame));
+  }
+  drop_bad_frames(dataset, list);
 }
 
 }  // namespace sslam::io

@@ -4,20 +4,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
+#include "sslam/io/datasets/body_poses.hpp"
 #include "sslam/io/datasets/dataset.hpp"
 #include "sslam/io/datasets/dataset_filling.hpp"
 #include "sslam/io/datasets/file_list.hpp"
 #include "sslam/io/datasets/image_folder.hpp"
 #include "sslam/io/files/files.hpp"
-#include "sslam/io/files/plain_text.hpp"
-#include "sslam/io/files/text.hpp"
-#include "sslam/io/trajectories/pose_row.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
 
 namespace sslam::io {
@@ -29,29 +24,6 @@ namespace euroc_detail {
   const auto has = [&](const char* name) { return std::filesystem::is_regular_file(folder / name, ignored); };
   const bool images = is_image_folder(folder / "data");
   return named ? images || has("data.csv") : images && (has("data.csv") || has("sensor.yaml"));
-}
-
-// The matrix behind a key of a YAML file, as one list or as a list of rows. Throws Error when it is no pose.
-[[nodiscard]] inline SE3<double> read_yaml_pose(const std::filesystem::path& file, std::string_view key) {
-  std::string text = read_plain_text(file);
-  const std::string problem = file.string() + ": " + std::string(key);
-  const std::size_t at = text.find(std::string(key) + ":");
-  const std::size_t open = at == std::string::npos ? at : text.find('[', at);
-  if (open == std::string::npos) throw Error(problem + " is missing; expected a 4x4 matrix");
-  text.erase(0, open);
-  for (char& c : text)
-    if (c == '[' || c == ']' || c == '\n') c = ' ';
-  std::vector<double> v;
-  for (const std::string_view cell : split_cells(text)) {
-    if (cell == "-") continue;
-    const auto number = parse_number<double>(cell);
-    if (!number || v.size() == 16) break;
-    v.push_back(*number);
-  }
-  std::string why = "expected a 4x4 matrix, found " + std::to_string(v.size()) + " numbers";
-  const auto pose = v.size() == 16 ? pose_of_matrix(v, why) : std::nullopt;
-  if (!pose) throw Error(problem + ": " + why);
-  return *pose;
 }
 
 }  // namespace euroc_detail
@@ -79,15 +51,13 @@ inline void attach_euroc_truth(Dataset& dataset, const std::filesystem::path& ma
       if (!has_sensor && !std::filesystem::is_regular_file(chain, ignored))
         throw Error(file.string() + ": holds the body's poses, and without T_BS in " + sensor.string() +
                     " the camera's are not known");
-      const SE3<double> body_from_cam = has_sensor
-                                            ? euroc_detail::read_yaml_pose(sensor, "T_BS")
-                                            : euroc_detail::read_yaml_pose(chain, "T_cam_imu").inverse();
+      const SE3<double> body_from_cam =
+          has_sensor ? read_yaml_pose(sensor, "T_BS") : read_yaml_pose(chain, "T_cam_imu").inverse();
       Warnings notes;
       Trajectory truth = read_trajectory(file, notes);
       std::erase(notes, file.string() + ": " + unit_note(kNanoseconds));  // as the layout has them
       dataset.warnings.insert(dataset.warnings.end(), notes.begin(), notes.end());
-      for (StampedPose& pose : truth) pose.world_from_cam = pose.world_from_cam * body_from_cam;
-      attach_ground_truth(dataset, std::move(truth), file);
+      attach_body_truth(dataset, std::move(truth), body_from_cam, file);
     } catch (const Error& error) {
       leave_truth_out(dataset, error.what());
     }
@@ -103,13 +73,7 @@ inline void attach_euroc_truth(Dataset& dataset, const std::filesystem::path& ma
   const std::filesystem::path list = camera / "data.csv";
   Dataset dataset;
   if (std::filesystem::is_regular_file(list, ignored)) {
-    for (StampedFile& file : read_file_list(list, camera / "data", dataset.warnings)) {
-      FrameEntry frame;
-      frame.stamp = file.stamp;
-      frame.image = std::move(file.file);
-      dataset.frames.push_back(std::move(frame));
-    }
-    drop_bad_frames(dataset, list);
+    take_listed_frames(dataset, read_file_list(list, camera / "data", dataset.warnings), list);
     std::erase(dataset.warnings, list.string() + ": " + unit_note(kNanoseconds));
   } else {
     const auto images = list_files(camera / "data", is_image_name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lists of `stamp file`, however people's programs write them: names with blanks, in quotes, with
-// backslashes, with more columns behind them, or of another computer's folders.
+// backslashes, with more columns behind them, with a counter in front, or of another computer's folders.
 #pragma once
 
 #include <cmath>
@@ -144,7 +144,26 @@ class RowReader {
   return StampedFile{*second, find_listed(root, std::string(first))};
 }
 
+// Whether each row counts itself in front of its stamp, as those of UZH-FPV do. The stamps increase; behind a
+// decimal comma, which looks alike, the other part of a number would not.
+[[nodiscard]] inline bool are_counted(const std::vector<TextRow>& rows) {
+  double last = -1;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& cells = rows[i].cells;
+    if (cells.size() < 3 || !is_image_name(std::string(cells[2]))) return false;
+    const auto first = parse_number<std::size_t>(rows.front().cells[0]);
+    const auto count = parse_number<std::size_t>(cells[0]);
+    const auto stamp = parse_number<double>(cells[1]);
+    if (!first || !count || *count != *first + i || !stamp || !(*stamp > last)) return false;
+    last = *stamp;
+  }
+  return rows.size() > 1;
+}
+
 }  // namespace file_list_detail
+
+// What is said of a list whose rows begin with their number.
+inline constexpr std::string_view kCountedNote = ": its first column counts the rows: left out";
 
 // Turns stamps into seconds, and says so where they were not.
 template <class Entry>
@@ -172,10 +191,13 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");
+  const bool counted = file_list_detail::are_counted(rows);
+  if (counted) warnings.push_back(list.string() + std::string(kCountedNote));
   BadEntries bad(list);
   std::vector<StampedFile> files;
   for (const TextRow& row : rows) {
     file_list_detail::RowReader reader(row.text);
+    if (counted) (void)reader.take_cell();
     auto file = file_list_detail::take_stamped_file(reader, root);
     if (!file) {
       bad.add(row.line, "expected 'stamp file' with the stamp as a number, or as 2011-09-26T13:02:25.96");

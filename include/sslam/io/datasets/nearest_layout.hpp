@@ -15,7 +15,7 @@ struct LayoutMarks {
   std::string_view images;                // without which it cannot be read
 };
 
-inline constexpr std::array<LayoutMarks, 9> kLayoutMarks{{
+inline constexpr std::array<LayoutMarks, 13> kLayoutMarks{{
     {"TUM RGB-D", {"groundtruth.txt", "depth.txt", "accelerometer.txt", "rgb"}, "rgb.txt"},
     {"EuRoC", {"mav0", "mav0/cam0", "cam0", "sensor.yaml"}, "mav0/cam0/data.csv"},
     {"KITTI odometry", {"times.txt", "calib.txt", "image_1", "image_3"}, "image_0/000000.png"},
@@ -26,6 +26,14 @@ inline constexpr std::array<LayoutMarks, 9> kLayoutMarks{{
     {"ScanNet", {"pose", "intrinsic", "color", ""}, "color/0.jpg"},
     {"colour and depth folders", {"depth", "intrinsic.json", "camera_intrinsic.json", ""}, "color/N.png"},
     {"COLMAP", {"sparse", "database.db", "sparse/0", ""}, "sparse/0/images.txt or images.bin, with cameras"},
+    {"OpenLORIS",
+     {"aligned_depth.txt", "sensors.yaml", "trans_matrix.yaml", "t265_gyroscope.txt"},
+     "color.txt"},
+    {"TartanAir", {"image_left", "pose_left.txt", "depth_left", "seg_left"}, "image_left/000000_left.png"},
+    {"ARKitScenes",
+     {"lowres_wide", "lowres_wide.traj", "lowres_depth", "lowres_wide_intrinsics"},
+     "lowres_wide/ID_STAMP.png, or lowres_wide_intrinsics/ID_STAMP.pincam,"},
+    {"Stray Scanner", {"odometry.csv", "camera_matrix.csv", "confidence", "imu.csv"}, "rgb.mp4"},
     {"nerfstudio or instant-ngp",
      {"transforms_train.json", "transforms.json", "images", "sparse_pc.ply"},
      "transforms.json, or transforms_train.json, with a file_path in its frames"},

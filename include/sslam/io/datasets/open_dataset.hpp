@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sslam/io/datasets/arkit_scenes.hpp"
 #include "sslam/io/datasets/bag_files.hpp"
 #include "sslam/io/datasets/colmap_folder.hpp"
 #include "sslam/io/datasets/colour_depth.hpp"
@@ -20,11 +21,15 @@
 #include "sslam/io/datasets/kitti_raw.hpp"
 #include "sslam/io/datasets/nearest_layout.hpp"
 #include "sslam/io/datasets/numbered_poses.hpp"
+#include "sslam/io/datasets/openloris.hpp"
 #include "sslam/io/datasets/other_recordings.hpp"
 #include "sslam/io/datasets/seven_scenes.hpp"
+#include "sslam/io/datasets/stray_scanner.hpp"
+#include "sslam/io/datasets/tartanair.hpp"
 #include "sslam/io/datasets/transforms_folder.hpp"
 #include "sslam/io/datasets/tum.hpp"
 #include "sslam/io/datasets/unread_images.hpp"
+#include "sslam/io/datasets/uzh_fpv.hpp"
 #include "sslam/io/datasets/video.hpp"
 #include "sslam/io/files/files.hpp"
 #include "sslam/io/files/text.hpp"
@@ -42,7 +47,7 @@ struct FolderLayout {
   Dataset (*read)(const Path& root, const OpenOptions& options);
 };
 
-inline constexpr std::array<FolderLayout, 14> kFolderLayouts{{
+inline constexpr std::array<FolderLayout, 19> kFolderLayouts{{
     {Layout::kTum, "TUM RGB-D", "rgb.txt", is_tum,
      [](const FolderLayout::Path& root, const OpenOptions&) { return read_tum(root); }},
     {Layout::kSevenScenes, "7-Scenes", "frame-NNNNNN.color.png", is_seven_scenes,
@@ -59,6 +64,19 @@ inline constexpr std::array<FolderLayout, 14> kFolderLayouts{{
      [](const FolderLayout::Path& root, const OpenOptions& options) {
        return read_scannet(root, options.frame_rate);
      }},
+    {Layout::kOpenLoris, "OpenLORIS", "color.txt with aligned_depth.txt", is_openloris,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_openloris(root); }},
+    {Layout::kTartanAir, "TartanAir", "image_left/NNNNNN_left.png", is_tartanair,
+     [](const FolderLayout::Path& root, const OpenOptions& options) {
+       return read_tartanair(root, options.frame_rate);
+     }},
+    {Layout::kUzhFpv, "UZH-FPV", "left_images.txt or images.txt with rows of 'id stamp file'", is_uzh_fpv,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_uzh_fpv(root); }},
+    {Layout::kArkitScenes, "ARKitScenes", "lowres_wide/ID_STAMP.png with lowres_wide_intrinsics/",
+     is_arkit_scenes,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_arkit_scenes(root); }},
+    {Layout::kVideo, "Stray Scanner", "rgb.mp4 with odometry.csv", is_stray_scan,
+     [](const FolderLayout::Path& root, const OpenOptions&) { return read_stray_scan(root); }},
     {Layout::kTransforms, "transforms.json", "transforms.json, or transforms_train.json, with file_path",
      is_transforms_folder,
      [](const FolderLayout::Path& root, const OpenOptions& options) {
@@ -87,10 +105,11 @@ inline constexpr std::array<FolderLayout, 14> kFolderLayouts{{
 }};
 
 [[nodiscard]] constexpr std::string_view name(Layout layout) noexcept {
+  if (layout == Layout::kVideo) return "video";  // also of a scan
   for (const FolderLayout& known : kFolderLayouts) {
     if (known.layout == layout) return known.name;
   }
-  return layout == Layout::kStream ? "stream" : "video";
+  return "stream";
 }
 
 [[nodiscard]] inline std::string describe_folder_layouts() {
@@ -127,6 +146,7 @@ inline constexpr std::array<FolderLayout, 14> kFolderLayouts{{
                                           const OpenOptions& options = {}) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
+  if (path.empty()) throw Error("the name of the dataset is empty; expected a folder, a video or a bag");
   if (!std::filesystem::exists(status)) {
     if (has_wildcards(path.string())) return read_image_glob(path, options.frame_rate);
     if (const auto pattern = number_pattern(path.filename().string()))

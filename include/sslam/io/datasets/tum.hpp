@@ -98,13 +98,7 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list,
       read_file_list(list, root, dataset.warnings, own_list ? nullptr : &partners);
   // Some tools write the depth image first.
   if (name_depth(files) && !partners.empty() && !name_depth(partners)) std::swap(files, partners);
-  for (StampedFile& file : files) {
-    FrameEntry frame;
-    frame.stamp = file.stamp;
-    frame.image = std::move(file.file);
-    dataset.frames.push_back(std::move(frame));
-  }
-  drop_bad_frames(dataset, list);
+  take_listed_frames(dataset, std::move(files), list);
   const std::filesystem::path depth = root / "depth.txt";
   if (std::filesystem::exists(depth, ignored)) {
     attach_depth(dataset, depth, read_file_list(depth, root, dataset.warnings));

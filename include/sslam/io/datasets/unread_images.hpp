@@ -13,9 +13,10 @@
 namespace sslam::io {
 
 [[nodiscard]] inline bool is_unread_image_name(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 22> kFormats{
-      ".heic", ".heif", ".avif", ".jp2", ".j2k", ".jxl", ".dng", ".cr2", ".cr3", ".nef", ".arw",
-      ".raf",  ".orf",  ".rw2",  ".raw", ".exr", ".hdr", ".npy", ".pfm", ".tga", ".psd", ".svg"};
+  constexpr std::array<std::string_view, 25> kFormats{
+      ".heic", ".heif", ".avif", ".jp2", ".j2k", ".jxl", ".dng", ".cr2", ".cr3",
+      ".nef",  ".arw",  ".raf",  ".orf", ".rw2", ".raw", ".exr", ".hdr", ".npy",
+      ".pfm",  ".tga",  ".psd",  ".svg", ".pcx", ".dpx", ".xcf"};
   return has_extension(path, kFormats);
 }
 

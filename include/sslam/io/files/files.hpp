@@ -42,10 +42,10 @@ namespace sslam::io {
 }
 
 [[nodiscard]] inline bool is_video_name(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 25> kVideos{
-      ".mp4",  ".avi", ".mkv", ".mov", ".webm", ".m4v", ".mpeg", ".mpg",  ".ogv",
-      ".wmv",  ".3gp", ".ts",  ".mts", ".m2ts", ".gif", ".flv",  ".apng", ".h264",
-      ".hevc", ".vob", ".y4m", ".asf", ".3g2",  ".mxf", ".m2v"};
+  constexpr std::array<std::string_view, 30> kVideos{
+      ".mp4", ".avi", ".mkv", ".mov",  ".webm", ".m4v", ".mpeg", ".mpg",  ".ogv",   ".wmv",
+      ".3gp", ".ts",  ".mts", ".m2ts", ".gif",  ".flv", ".apng", ".h264", ".hevc",  ".vob",
+      ".y4m", ".asf", ".3g2", ".mxf",  ".m2v",  ".264", ".265",  ".h265", ".mjpeg", ".mjpg"};
   return has_extension(path, kVideos);
 }
 

@@ -2,6 +2,7 @@
 // Text files of any encoding as UTF-8 with LF.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -12,9 +13,12 @@ namespace sslam::io {
 
 using sslam::plain_text;
 
-// Throws Error when the file cannot be read.
+// Zero bytes become question marks: in a message that names a cell they would end it. Throws Error when the
+// file cannot be read.
 [[nodiscard]] inline std::string read_plain_text(const std::filesystem::path& path) {
-  return plain_text(read_text(path));
+  std::string text = plain_text(read_text(path));
+  std::replace(text.begin(), text.end(), '\0', '?');
+  return text;
 }
 
 }  // namespace sslam::io

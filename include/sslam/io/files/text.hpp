@@ -132,6 +132,7 @@ inline void add_to_list(std::string& list, std::string_view item) {
     text += '.';
   }
   while (text.size() - point - 1 < decimals) text += '0';
+  if (text.ends_with('.')) text.pop_back();
   return text;
 }
 

@@ -52,6 +52,19 @@ inline constexpr std::size_t kColumns = 8;  // stamp tx ty tz qx qy qz qw
   return names;
 }
 
+// How many empty cells end a row that commas separate: nothing stands behind its last commas.
+[[nodiscard]] inline std::size_t empty_at_end(std::string_view row) noexcept {
+  std::size_t count = 0;
+  for (std::size_t at = row.size(); at > 0; --at) {
+    const char c = row[at - 1];
+    if (c == ',' || c == ';')
+      ++count;
+    else if (c != ' ' && c != '\t' && c != '\r')
+      break;
+  }
+  return count;
+}
+
 }  // namespace pose_columns_detail
 
 // Of rows whose columns are named above them, in `head`: brings those of a pose to the front, in TUM's order,
@@ -64,8 +77,12 @@ inline std::size_t order_columns(std::vector<TextRow>& rows, std::string_view he
     if (const auto place = place_of(names[i]); place && !columns[*place]) columns[*place] = i;
   if (!std::all_of(columns.begin(), columns.end(), [](const auto& column) { return column.has_value(); }))
     return 0;
+  const std::size_t needed = 1 + std::max_element(columns.begin(), columns.end())->value();
   std::size_t ordered = 0;
   for (TextRow& row : rows) {
+    const std::size_t empty = empty_at_end(row.text);
+    if (row.cells.size() >= needed && row.cells.size() + empty == names.size())
+      row.cells.resize(names.size());
     if (row.cells.size() != names.size()) continue;
     std::vector<std::string_view> cells;
     cells.reserve(columns.size());

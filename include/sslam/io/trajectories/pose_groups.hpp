@@ -6,15 +6,35 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "sslam/core/error.hpp"
 #include "sslam/io/files/text.hpp"
 
 namespace sslam::io {
 
 namespace trajectory_detail {
+
+// Rows of four are those of matrices, or a stamp and a position each: the fourth row of no matrix is 0 0 0 1
+// then.
+inline void refuse_positions(const std::vector<TextRow>& rows, const std::filesystem::path& path) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const TextRow& row : rows) {
+    const auto stamp = row.cells.size() == 4 ? parse_number<double>(row.cells[0]) : std::nullopt;
+    if (!stamp || !(*stamp > last)) return;
+    last = *stamp;
+  }
+  if (rows.size() > 4)
+    throw Error(
+        path.string() + ": line " + std::to_string(rows.front().line) +
+        ": has a stamp and a position, and no rotation; expected rows of 'stamp tx ty tz qx qy qz qw'");
+}
 
 // A matrix over four rows becomes one row.
 inline void join_matrices(std::vector<TextRow>& rows) {

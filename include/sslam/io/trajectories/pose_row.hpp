@@ -27,6 +27,7 @@ enum class RowLayout {
   kMatrix,         // the upper three rows of a 4x4 matrix, or all four, without a stamp: KITTI
   kStampedMatrix,  // the same behind a stamp
   kUnstamped,      // tx ty tz qx qy qz qw: TartanAir, the vertices of g2o
+  kAxisAngle,      // stamp rx ry rz tx ty tz, world to camera, turned by |r| radians about r: ARKitScenes
 };
 
 [[nodiscard]] constexpr bool has_stamp(RowLayout layout) noexcept {
@@ -130,7 +131,8 @@ struct PoseRow {
   }
   const bool matrix = layout == RowLayout::kMatrix || layout == RowLayout::kStampedMatrix;
   std::vector<double> v;
-  for (std::size_t i = from; i < (matrix ? width : from + 7); ++i) {
+  const bool turn = layout == RowLayout::kAxisAngle;
+  for (std::size_t i = from; i < (matrix || turn ? width : from + 7); ++i) {
     const std::optional<double> number = parse_cell(row.cells[i]);
     if (!number) {
       why = "'" + std::string(row.cells[i]) + "' is not a number";
@@ -138,10 +140,13 @@ struct PoseRow {
     }
     v.push_back(*number);
   }
-  result.no_pose = means_no_pose(v) || (!matrix && means_no_pose(std::span(v).last(4)));
+  result.no_pose = means_no_pose(v) || (!matrix && !turn && means_no_pose(std::span(v).last(4)));
   if (result.no_pose) return result;
   if (matrix) {
     result.pose = pose_of_matrix(v, why);
+  } else if (turn) {
+    const SE3<double> cam_from_world{SO3<double>::exp({v[0], v[1], v[2]}), {v[3], v[4], v[5]}};
+    result.pose = cam_from_world.inverse();
   } else {
     const bool w_first = layout == RowLayout::kWFirst;
     const std::array<double, 4> q =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trajectories as programs write them, told by their rows: TUM, EuRoC, KITTI with its times, 4x4 matrices,
-// also with the heads of Open3D, the vertices of g2o.
+// also with the heads of Open3D, the vertices of g2o, the .traj files of ARKitScenes.
 #pragma once
 
 #include <algorithm>
@@ -65,6 +65,15 @@ namespace trajectory_detail {
   return width;
 }
 
+// What stands behind the numbers of a row: "# such a remark".
+inline void drop_remarks(std::vector<TextRow>& rows) {
+  for (TextRow& row : rows) {
+    const auto remark = std::find_if(row.cells.begin(), row.cells.end(),
+                                     [](std::string_view cell) { return cell.starts_with('#'); });
+    row.cells.erase(remark, row.cells.end());
+  }
+}
+
 // The tables of EuRoC count nanoseconds and separate by commas.
 [[nodiscard]] inline bool looks_like_euroc(const TextRow& row) {
   constexpr double kNanosecondsToday = 1e17;
@@ -83,6 +92,7 @@ namespace trajectory_detail {
                                          std::string_view head, const std::filesystem::path& path,
                                          Warnings& warnings) {
   if (width == 12 || width == 16) return RowLayout::kMatrix;
+  if (width == 7 && path.extension() == ".traj") return RowLayout::kAxisAngle;
   if (width == 13 || std::any_of(rows.begin(), rows.end(), ends_as_matrix)) return RowLayout::kStampedMatrix;
   if (width == 7 && std::all_of(rows.begin(), rows.end(), [](const TextRow& row) {
         return row.cells.size() != 7 || ends_as_quaternion(row);
@@ -150,11 +160,13 @@ namespace trajectory_detail {
   if (rows.empty())
     throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
   const std::string_view head(text.data(), static_cast<std::size_t>(rows.front().text.data() - text.data()));
+  trajectory_detail::drop_remarks(rows);
   const std::size_t named = order_columns(rows, head);
   std::vector<double> numbers = trajectory_detail::take_log_heads(rows);
   if (numbers.empty()) numbers = trajectory_detail::take_vertices(rows);
   if (rows.empty())
     throw Error(path.string() + ": holds no pose; expected rows of " + std::string(kPoseRows));
+  trajectory_detail::refuse_positions(rows, path);
   trajectory_detail::join_matrices(rows);
   const std::size_t width = named > 0 ? named : trajectory_detail::usual_width(rows);
   const RowLayout layout =

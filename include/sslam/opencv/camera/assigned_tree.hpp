@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calibrations as rows of 'key = value', also below [sections]: INI, TOML, the scene files of ScanNet.
+// Calibrations as rows of 'key = value', also below [sections]: INI, TOML, the scene files of ScanNet; and as
+// one row of numbers below their names.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sslam/core/error.hpp"
 #include "sslam/core/text_tree.hpp"
@@ -84,6 +88,35 @@ namespace detail {
     add(in_section ? root.items.back() : root, key, std::move(parsed), number);
   }
   return root;
+}
+
+// A table with one row of numbers below their names, such as "fx,fy,cx,cy", as a map. Empty: another text.
+[[nodiscard]] inline TextNode named_row(const std::string& text) {
+  TextNode map;
+  const auto cells_of = [](const std::string& line) {
+    std::istringstream cells(line);
+    return std::vector<std::string>(std::istream_iterator<std::string>(cells),
+                                    std::istream_iterator<std::string>());
+  };
+  std::istringstream lines(text);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; rows.size() < 3 && std::getline(lines, line);) {
+    for (char& c : line)
+      if (c == ',' || c == ';' || c == '"' || (c == '#' && rows.empty())) c = ' ';
+    if (std::vector<std::string> row = cells_of(line); !row.empty()) rows.push_back(std::move(row));
+  }
+  if (rows.size() != 2 || rows[0].size() != rows[1].size()) return map;
+  map.keys = std::move(rows[0]);
+  if (std::none_of(map.keys.begin(), map.keys.end(), [](const std::string& key) { return key == "fx"; }))
+    return {};
+  map.kind = TextNode::Kind::kMap;
+  for (std::string& value : rows[1]) {
+    TextNode& item = map.items.emplace_back();
+    item.kind = TextNode::Kind::kScalar;
+    item.line = 2;
+    item.text = std::move(value);
+  }
+  return map;
 }
 
 }  // namespace detail

@@ -121,6 +121,7 @@ inline void complete_wide(CameraFile& read) {
         return read_metashape(element, source);
       return read_camera_tree(parse_xml(text, source), source);
     }
+    if (const TextNode named = named_row(text); !named.keys.empty()) return read_camera_tree(named, source);
     if (auto rows = read_camera_rows(text, source)) return *rows;
     if (is_assigned(text)) return read_camera_tree(parse_assigned(text, source), source);
     return read_camera_tree(TextTree::parse(text, source), source);

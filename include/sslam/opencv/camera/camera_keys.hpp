@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,13 @@ struct CameraFile {
 }
 
 namespace detail {
+
+// The first of these is the answer, with the others beside it.
+[[nodiscard]] inline CameraFile one_of(std::vector<CameraFile> cameras) {
+  CameraFile first = std::move(cameras.front());
+  first.others.assign(std::make_move_iterator(cameras.begin() + 1), std::make_move_iterator(cameras.end()));
+  return first;
+}
 
 [[nodiscard]] inline std::string short_text(double value) {
   char text[32];
@@ -117,6 +125,7 @@ class CameraKeys {
       if (node == nullptr) continue;
       const TextNode* const data = node->find("data");
       gather(data != nullptr ? *data : *node, name, meaning, values);
+      if (data != nullptr) demand_count(*node, name, values.size());
       break;
     }
     return values;
@@ -136,6 +145,19 @@ class CameraKeys {
     }
     if (!std::isfinite(*value)) fail(node, key, "is not finite; expected " + meaning);
     return *value;
+  }
+
+  // A matrix that has another number of numbers than its rows and columns say is cut off, or is another
+  // one's.
+  void demand_count(const TextNode& matrix, std::string_view key, std::size_t found) const {
+    const TextNode* const rows = matrix.find("rows");
+    const TextNode* const columns = matrix.find("cols");
+    if (rows == nullptr || columns == nullptr) return;
+    const double wanted = number_of(rows->text).value_or(0) * number_of(columns->text).value_or(0);
+    if (wanted > 0 && wanted != static_cast<double>(found))
+      fail(matrix, key,
+           "has " + std::to_string(found) + " numbers, and by its rows and cols " + short_text(wanted) +
+               "; expected as many as these say");
   }
 
   void gather(const TextNode& node, std::string_view key, const std::string& meaning,

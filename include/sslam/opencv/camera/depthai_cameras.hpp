@@ -68,10 +68,7 @@ namespace detail {
     for (const std::string& why : left_out) camera.notes.push_back(why + "; left out");
   if (cameras.empty())
     top.fail("cameraData has no camera with an intrinsicMatrix; this device was never calibrated");
-  CameraFile first = std::move(cameras.front());
-  cameras.erase(cameras.begin());
-  first.others = std::move(cameras);
-  return first;
+  return one_of(std::move(cameras));
 }
 
 }  // namespace detail

@@ -87,7 +87,13 @@ template <std::size_t N>
           plain_word(keys.map().keys[i]).starts_with("dist"))
         keys.fail(keys.map().items[i], keys.map().keys[i],
                   "is not known here; expected " + std::string(names.front()));
-  return keys.numbers(names, "distortion coefficients");
+  const std::vector<double> values = keys.numbers(names, "distortion coefficients");
+  if (values.size() == 3 &&
+      std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
+    keys.fail(keys.where() +
+              "the distortion has 3 coefficients, which may be k1 k2 k3 or k1 k2 p1; expected k1 "
+              "k2 p1 p2 k3, with 0 for those that the lens has not");
+  return values;
 }
 
 // Whether an image of the lens can be undistorted to a pinhole's view, where no other lens comes near it.

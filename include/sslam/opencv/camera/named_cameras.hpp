@@ -71,18 +71,31 @@ inline void read_named_pinhole(const CameraKeys& keys, const std::string& prefix
   set_lens(keys, model, values, file);
 }
 
+// "Camera1." of ORB-SLAM3's "Camera1.fx"; of several the lowest; empty: none. `count`: how many there are.
+[[nodiscard]] inline std::string numbered_camera(const TextNode& map, int* count = nullptr) {
+  std::string first;
+  for (char digit = '0'; digit <= '9'; ++digit) {
+    const std::string prefix = std::string("Camera") + digit + ".";
+    if (!map.has(prefix + "fx")) continue;
+    if (first.empty()) first = prefix;
+    if (count != nullptr) ++*count;
+  }
+  return first;
+}
+
 // ORB-SLAM2 and 3, stella_vslam and OpenVSLAM: "Camera.fx" at the top, or fx in a map "Camera" (`prefix`
 // empty).
 inline CameraFile read_orb_slam(const CameraKeys& keys, const CameraKeys& top, const std::string& prefix) {
   CameraFile file;
-  const bool numbered = !keys.has(prefix + "fx") && keys.has("Camera1.fx");
+  int cameras = 0;
+  const std::string first = keys.has(prefix + "fx") ? std::string() : numbered_camera(keys.map(), &cameras);
   std::string model = keys.text({prefix + "model"});
   if (model.empty()) model = keys.text({prefix + "type"});
   const std::string width = prefix + "width", height = prefix + "height", columns = prefix + "cols",
                     rows = prefix + "rows", rate = prefix + "fps";
   file.camera.width = keys.optional_pixels({width, columns});
   file.camera.height = keys.optional_pixels({height, rows});
-  read_named_pinhole(keys, numbered ? "Camera1." : prefix, model.empty() ? "pinhole" : model, file);
+  read_named_pinhole(keys, first.empty() ? prefix : first, model.empty() ? "pinhole" : model, file);
   file.frame_rate = keys.optional_positive({rate}, "frames a second");
   file.depth_factor = top.optional_positive({"DepthMapFactor", "RGBD.DepthMapFactor", "depthmap_factor"},
                                             "depth image units a metre");
@@ -119,7 +132,10 @@ inline CameraFile read_orb_slam(const CameraKeys& keys, const CameraKeys& top, c
                                               "baseline",
                                               "ThDepth"};
   note_unknown(keys, prefix, known, file);
-  if (numbered) note_unknown(keys, "Camera1.", known, file);
+  if (!first.empty()) note_unknown(keys, first, known, file);
+  if (cameras > 1)
+    file.notes.push_back(keys.file() + ": has several cameras; the first, " + first +
+                         "fx and so on, is taken");
   return file;
 }
 
