@@ -17,6 +17,7 @@
 #include "sslam/opencv/camera/named_cameras.hpp"
 #include "sslam/opencv/camera/photo_cameras.hpp"
 #include "sslam/opencv/camera/same_camera.hpp"
+#include "sslam/opencv/camera/sensor_cameras.hpp"
 #include "sslam/opencv/camera/slam_cameras.hpp"
 #include "sslam/opencv/camera/storage_file.hpp"
 #include "sslam/opencv/camera/undistorter.hpp"
