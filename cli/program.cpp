@@ -136,7 +136,7 @@ void add_self_description(CLI::App& app) {
 }
 
 // `sslam help run` is `sslam run --help`.
-std::vector<std::string> words_of(int argc, char** argv) {
+std::vector<std::string> words_given(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (words.empty() || words.front() != "help") return words;
   words.erase(words.begin());
@@ -163,7 +163,7 @@ int parse_and_run(int argc, char** argv) {
   add_demo_command(app);
   for (CLI::App* command : app.get_subcommands({})) command->footer(footer_of(command->get_name()));
   add_self_description(app);
-  std::vector<std::string> words = words_of(argc, argv);
+  std::vector<std::string> words = words_given(argc, argv);
   const auto is_command = [&app](const std::string& word) {
     const std::vector<const CLI::App*> all = std::as_const(app).get_subcommands(nullptr);
     return std::any_of(all.begin(), all.end(), [&](const CLI::App* each) { return each->check_name(word); });

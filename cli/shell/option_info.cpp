@@ -5,7 +5,7 @@ namespace sslam::cli {
 namespace {
 
 // "{a,b}" as in TEXT:{a,b}
-std::vector<std::string> words_of(const std::string& type) {
+std::vector<std::string> words_of_type(const std::string& type) {
   const auto open = type.find('{'), close = type.rfind('}');
   if (open == std::string::npos || close == std::string::npos || close < open) return {};
   return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
@@ -32,7 +32,7 @@ OptionInfo describe_option(const CLI::Option& option) {
   info.required = option.get_required();
   if (option.get_items_expected_max() == 0) return info;
   const std::string type = option.get_type_name();
-  info.words = words_of(type);
+  info.words = words_of_type(type);
   info.value = type.substr(0, type.find(':'));  // behind it, CLI11 says what is checked
   if (!info.words.empty()) info.value = "WORD";
   if (type.ends_with(":FILE")) info.value = "FILE";

