@@ -11,6 +11,7 @@
 #include "cli/input/normal_choice.hpp"
 #include "cli/results/eval_report.hpp"
 #include "cli/results/map_figures.hpp"
+#include "cli/results/run_folder.hpp"
 
 namespace sslam::cli {
 namespace {
