@@ -125,7 +125,7 @@ TEST_CASE("OpenLORIS: aligned depth in millimetres, and the base's poses become 
   }
 }
 
-TEST_CASE("UZH-FPV: rows of a counter, a stamp and a file; the IMU's poses by Kalibr's camchain") {
+TEST_CASE("UZH-FPV: rows of a counter, a stamp and a file, and the IMU's poses by Kalibr's camchain") {
   const ScratchFolder scratch;
   const std::string list = GENERATE("left_images.txt", "images.txt");
   std::string rows = "# id timestamp image_name\n", truth = "# timestamp tx ty tz qx qy qz qw\n";
