@@ -115,21 +115,26 @@ std::vector<TrackResult<double>> track_all(P& pipeline, Simulation& simulation) 
   return track_first(pipeline, simulation, simulation.size());
 }
 
-// RMSE of the camera centres of the final trajectory after the best similarity: its ATE.
-template <class P>
-[[nodiscard]] double position_error(const P& pipeline, const Simulation& simulation) {
-  const auto& entries = pipeline.trajectory().entries();
+// RMSE of the camera centres of a trajectory after the best similarity: its ATE.
+[[nodiscard]] inline double position_error(const Map<double>& map, const TrajectoryLog<double>& log,
+                                           const Simulation& simulation) {
+  const auto& entries = log.entries();
   const auto count = static_cast<Eigen::Index>(entries.size());
   Eigen::Matrix3Xd estimate(3, count), truth(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& entry = entries[static_cast<std::size_t>(i)];
-    estimate.col(i) = pipeline.trajectory().pose(pipeline.map(), entry).inverse().translation;
+    estimate.col(i) = TrajectoryLog<double>::pose(map, entry).inverse().translation;
     truth.col(i) = simulation.truth(static_cast<std::size_t>(entry.index)).inverse().translation;
   }
   const Eigen::Matrix4d truth_from_estimate = Eigen::umeyama(estimate, truth);
   const Eigen::Matrix3Xd aligned = (truth_from_estimate.topLeftCorner<3, 3>() * estimate).colwise() +
                                    truth_from_estimate.topRightCorner<3, 1>();
   return std::sqrt((aligned - truth).colwise().squaredNorm().mean());
+}
+
+template <class P>
+[[nodiscard]] double position_error(const P& pipeline, const Simulation& simulation) {
+  return position_error(pipeline.map(), pipeline.trajectory(), simulation);
 }
 
 [[nodiscard]] inline int count(const std::vector<TrackResult<double>>& results, State state) {

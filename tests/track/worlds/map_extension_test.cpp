@@ -44,24 +44,6 @@ struct WalkAlone {
   TrajectoryLog<double> log;
 };
 
-// RMSE of the camera centres after the best similarity.
-double position_error(const Map<double>& map, const TrajectoryLog<double>& log,
-                      const Simulation& simulation) {
-  const auto count = static_cast<Eigen::Index>(log.entries().size());
-  Eigen::Matrix3Xd estimate(3, count), truth(3, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& entry = log.entries()[static_cast<std::size_t>(i)];
-    estimate.col(i) = TrajectoryLog<double>::pose(map, entry).inverse().translation;
-    truth.col(i) = simulation.truth(static_cast<std::size_t>(entry.index)).inverse().translation;
-  }
-  const Eigen::Matrix4d aligned = Eigen::umeyama(estimate, truth);
-  return std::sqrt(
-      (((aligned.topLeftCorner<3, 3>() * estimate).colwise() + aligned.topRightCorner<3, 1>()) - truth)
-          .colwise()
-          .squaredNorm()
-          .mean());
-}
-
 }  // namespace map_extension_test
 
 TEST_CASE("The final pass extends the map into a turn that the map does not show") {
