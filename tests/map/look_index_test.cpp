@@ -14,6 +14,8 @@ using namespace sslam;
 
 namespace {
 
+constexpr int kMost = 12;
+
 struct Look {
   Descriptor descriptor;
   bool alive = false;
@@ -32,7 +34,10 @@ std::uint64_t piece(const Descriptor& d, std::size_t p) {
 
 std::set<LandmarkId> found(const LookIndex& index, const Descriptor& descriptor) {
   std::set<LandmarkId> ids;
-  index.near(descriptor, [&](LandmarkId id, int) { ids.insert(id); });
+  index.near(descriptor, kMost, [&](LandmarkId id, int bits) {
+    CHECK(bits <= kMost);
+    CHECK(ids.insert(id).second);  // once each
+  });
   return ids;
 }
 
@@ -54,7 +59,8 @@ TEST_CASE("an index of looks that has followed a map finds what one made anew fi
     std::set<LandmarkId> expected;
     for (std::size_t i = 0; i < looks.size(); ++i)
       for (std::size_t p = 0; p < 16; ++p)
-        if (looks[i].alive && piece(looks[i].descriptor, p) == piece(asked, p))
+        if (looks[i].alive && hamming(looks[i].descriptor, asked) <= kMost &&
+            piece(looks[i].descriptor, p) == piece(asked, p))
           expected.insert(static_cast<LandmarkId>(i));
     CHECK(found(index, asked) == expected);
     LookIndex anew;

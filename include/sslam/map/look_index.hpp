@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "sslam/core/bucket_lists.hpp"
 #include "sslam/core/descriptor.hpp"
+#include "sslam/core/hamming_block.hpp"
 #include "sslam/map/landmark.hpp"
 
 namespace sslam {
@@ -32,18 +34,16 @@ class LookIndex {
 
   // The landmarks are others: they are taken in by the next make().
   void forget() noexcept {
-    heads_.clear();
+    buckets_.clear();
     looks_.clear();
-    known_.clear();
-    for (auto& links : after_) links.clear();
-    for (auto& links : before_) links.clear();
+    slots_.clear();
   }
-  [[nodiscard]] bool made() const noexcept { return !heads_.empty(); }
+  [[nodiscard]] bool made() const noexcept { return !buckets_.empty(); }
 
   template <class Landmarks>
   void make(const Landmarks& landmarks) {
     forget();
-    heads_.assign(kPieces << kPieceBits, kNone);
+    buckets_.assign(kPieces << kPieceBits);
     for (std::size_t i = 0; i < landmarks.size(); ++i)
       if (landmarks[i].alive) set(static_cast<LandmarkId>(i), landmarks[i].descriptor);
   }
@@ -52,65 +52,80 @@ class LookIndex {
   void set(LandmarkId id, const Descriptor& descriptor) {
     if (!made()) return;
     const std::size_t at = index(id);
-    if (known_.size() <= at) grow(at + 1);
+    if (slots_.size() <= at) {
+      slots_.resize(at + 1, kNowhere);
+      looks_.resize(at + 1);
+    }
     for (std::size_t p = 0; p < kPieces; ++p) {
       const std::size_t bucket = bucket_of(descriptor, p);
-      if (known_[at] != 0 && bucket == bucket_of(looks_[at], p)) continue;
-      if (known_[at] != 0) leave(at, p);
-      LandmarkId& head = heads_[bucket];
-      if (head != kNone) before_[p][index(head)] = id;
-      before_[p][at] = kNone;
-      after_[p][at] = head;
-      head = id;
+      if (slots_[at][p] != kNone) {
+        if (bucket == bucket_of(looks_[at], p)) continue;
+        leave(at, p);
+      }
+      slots_[at][p] = buckets_.insert(bucket, id);
     }
     looks_[at] = descriptor;
-    known_[at] = 1;
   }
 
   void remove(LandmarkId id) {
     const std::size_t at = index(id);
-    if (at >= known_.size() || known_[at] == 0) return;
+    if (at >= slots_.size() || slots_[at] == kNowhere) return;
     for (std::size_t p = 0; p < kPieces; ++p) leave(at, p);
-    known_[at] = 0;
+    slots_[at] = kNowhere;
   }
 
-  // Calls visit(id, how many bits differ), more than once for one that shares several pieces. After make().
+  // Calls visit(id, in how many bits it differs) once for each landmark that shares a piece and differs in at
+  // most `most` bits. After make().
   template <class Visit>
-  void near(const Descriptor& descriptor, Visit visit) const {
-    for (std::size_t p = 0; p < kPieces; ++p)
-      for (LandmarkId id = heads_[bucket_of(descriptor, p)]; id != kNone; id = after_[p][index(id)])
-        visit(id, hamming(descriptor, looks_[index(id)]));
+  void near(const Descriptor& descriptor, int most, Visit visit) const {
+    HammingBlock<BucketLists::kChunk> bits;
+    for (std::size_t p = kPieces; p-- > 0;)  // the fullest buckets are those of the last pieces
+      buckets_.visit(bucket_of(descriptor, p), [&](const BucketLists::Ids& ids, std::size_t count) {
+        hamming_block(descriptor, looks_, ids, count, bits);
+        for (std::size_t i = 0; i < count; ++i)
+          if (bits[i] <= most && !share_after(descriptor, looks_[index(ids[i])], p)) visit(ids[i], bits[i]);
+      });
   }
 
- private:
+ public:
   static constexpr std::size_t kPieces = 16, kPieceBits = 16;
+  using Slots = std::array<std::int32_t, kPieces>;
+  static constexpr Slots kNowhere = [] {
+    Slots slots{};
+    slots.fill(kNone);
+    return slots;
+  }();
 
   [[nodiscard]] static std::size_t index(LandmarkId id) noexcept { return static_cast<std::size_t>(id); }
 
-  void grow(std::size_t size) {
-    for (auto& links : after_) links.resize(size, kNone);
-    for (auto& links : before_) links.resize(size, kNone);
-    looks_.resize(size);
-    known_.resize(size, 0);
-  }
-
   void leave(std::size_t at, std::size_t piece) {
-    const LandmarkId before = before_[piece][at], after = after_[piece][at];
-    if (after != kNone) before_[piece][index(after)] = before;
-    if (before != kNone)
-      after_[piece][index(before)] = after;
-    else
-      heads_[bucket_of(looks_[at], piece)] = after;
+    const LandmarkId moved = buckets_.erase(bucket_of(looks_[at], piece), slots_[at][piece]);
+    if (moved != kNone) slots_[index(moved)][piece] = slots_[at][piece];
   }
 
+  [[nodiscard]] static std::size_t piece_of(const Descriptor& descriptor, std::size_t piece) noexcept {
+    return descriptor.words[piece / 4] >> (kPieceBits * (piece % 4)) & 0xFFFFU;
+  }
   [[nodiscard]] static std::size_t bucket_of(const Descriptor& descriptor, std::size_t piece) noexcept {
-    return piece << kPieceBits | (descriptor.words[piece / 4] >> (kPieceBits * (piece % 4)) & 0xFFFFU);
+    return piece << kPieceBits | piece_of(descriptor, piece);
   }
 
-  std::vector<LandmarkId> heads_;  // first landmark of each bucket; empty: not made
-  std::array<std::vector<LandmarkId>, kPieces> after_, before_;  // in its bucket of each piece, by landmark
-  std::vector<Descriptor> looks_;                                // by landmark
-  std::vector<std::uint8_t> known_;                              // by landmark: whether it is in
+  // Whether a piece after that one is the same: all bits of a lane of their difference are zero.
+  [[nodiscard]] static bool share_after(const Descriptor& a, const Descriptor& b,
+                                        std::size_t piece) noexcept {
+    constexpr std::uint64_t kAllButTop = 0x7FFF7FFF7FFF7FFF;
+    const std::size_t first = piece / 4;
+    for (std::size_t w = a.words.size() - 1; w + 1 > first; --w) {
+      std::uint64_t differ = a.words[w] ^ b.words[w];
+      if (w == first) differ |= ~std::uint64_t{0} >> (kPieceBits * (3 - piece % 4));
+      if (~(((differ & kAllButTop) + kAllButTop) | differ | kAllButTop) != 0) return true;
+    }
+    return false;
+  }
+
+  BucketLists buckets_;            // of each piece, by its bits; empty: not made
+  std::vector<Slots> slots_;       // in the bucket of each piece, by landmark; kNowhere: not in
+  std::vector<Descriptor> looks_;  // by landmark
 };
 
 }  // namespace sslam

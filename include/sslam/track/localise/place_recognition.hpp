@@ -53,9 +53,9 @@ class PlaceRecognition {
     for (const KeyframeId k : apart_from)
       for (const LandmarkId id : map.keyframes[map.index(k)].*seen)
         if (id != kNone) touch(id).excluded = true;
+    const int reach = telling_distance();
     for (std::size_t f = 0; f < features.size(); ++f)
-      looks.near(features[f].descriptor, [&](LandmarkId id, int distance) {
-        if (!tells(distance)) return;
+      looks.near(features[f].descriptor, reach, [&](LandmarkId id, int distance) {
         Candidate& candidate = touch(id);
         if (!candidate.excluded) candidate.features.offer(distance, static_cast<std::int32_t>(f));
       });
@@ -68,10 +68,13 @@ class PlaceRecognition {
     touched_.clear();
   }
 
-  // Whether a feature so many bits off can be the best for a landmark, or too good beside the best.
-  [[nodiscard]] bool tells(int distance) const noexcept {
-    return distance <= options.max_distance ||
-           options.max_ratio * static_cast<S>(distance) < static_cast<S>(options.max_distance);
+  // The most bits by which a feature can be the best for a landmark, or too good beside the best.
+  [[nodiscard]] int telling_distance() const noexcept {
+    int distance = 256;
+    while (distance > options.max_distance &&
+           options.max_ratio * static_cast<S>(distance) >= static_cast<S>(options.max_distance))
+      --distance;
+    return distance;
   }
 
   struct Candidate {
