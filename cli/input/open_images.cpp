@@ -58,9 +58,10 @@ io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions
 io::Dataset open_images(const std::filesystem::path& path, const io::BagTopics& topics) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) {
-    if (io::is_image_name(path))
+    const bool video = io::is_video_file(path);
+    if (!video && io::is_image_name(path))
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
-    if (!io::is_video_file(path) && !io::is_bag_name(path))
+    if (!video && !io::is_bag_name(path))
       throw Error(
           path.string() +
           ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");

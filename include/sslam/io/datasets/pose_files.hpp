@@ -60,13 +60,11 @@ class PoseFiles {
   // Call once, when all frames have been seen.
   void settle(Dataset& dataset) const {
     if (no_pose_ > 0) dataset.warnings.push_back(no_pose_note(folder_, no_pose_, files_));
-    try {
+    attach_or_leave_out(dataset, [&] {
       bad_.settle(files_ - no_pose_, dataset.warnings);
       if (files_ > 0 && files_ == no_pose_)
         leave_truth_out(dataset, folder_.string() + ": none of its poses is one");
-    } catch (const Error& error) {
-      leave_truth_out(dataset, error.what());
-    }
+    });
   }
 
  private:
