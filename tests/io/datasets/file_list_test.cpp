@@ -182,7 +182,8 @@ TEST_CASE("Names of images are stamps in the unit that they can only have") {
   const ScratchFolder scratch;
   for (const std::string& name : c.names) {
     scratch.write(name + ".png");
-    scratch.write("._" + name + ".png");  // as macOS leaves them
+    scratch.write("._" + name + ".png");     // as macOS leaves them
+    scratch.write("." + name + ".tmp.jpg");  // as other programs do
   }
   const io::Dataset dataset = io::open_dataset(scratch.path(), {.frame_rate = 10});
   REQUIRE(dataset.frames.size() == c.names.size());
