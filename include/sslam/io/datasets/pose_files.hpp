@@ -25,6 +25,7 @@ namespace sslam::io {
   for (const TextRow& row : split_rows(text))
     for (const std::string_view cell : row.cells)
       if (const auto number = parse_cell(cell)) v.push_back(*number);
+  if (v.size() == 12) v.insert(v.end(), {0, 0, 0, 1});  // without its last row
   std::optional<SE3<double>> pose;
   why.clear();
   if (v.size() != 16) {
