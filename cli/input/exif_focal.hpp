@@ -42,8 +42,8 @@ class TiffBlock {
   bool big_;
 };
 
-// FocalLengthIn35mmFilm in pixels of an image of this size; 0 where the file does not say it. Such lengths
-// compare diagonals, and that of the film is 43.27 mm.
+// FocalLengthIn35mmFilm in pixels of an image of this size; 0 where the file does not say it, or what no lens
+// has. Such lengths compare diagonals, and that of the film is 43.27 mm.
 [[nodiscard]] inline double exif_focal(const std::filesystem::path& jpeg, int width, int height) {
   constexpr std::size_t kHead = 1U << 17U;  // the block stands first, and has 64 KiB at most
   constexpr std::uint32_t kPhotoDirectory = 0x8769, kFilmFocal = 0xA405;
@@ -58,8 +58,9 @@ class TiffBlock {
   if (photo == 0) return 0;
   const std::size_t focal = tiff.find(tiff.number(photo, 4), kFilmFocal);
   if (focal == 0) return 0;
-  constexpr double kFilmDiagonal = 43.267;  // millimetres
-  return tiff.number(focal, 2) / kFilmDiagonal * std::hypot(width, height);
+  constexpr double kFilmDiagonal = 43.267, kLeast = 5, kMost = 1000;  // millimetres
+  const double film = tiff.number(focal, 2);
+  return film < kLeast || film > kMost ? 0 : film / kFilmDiagonal * std::hypot(width, height);
 }
 
 }  // namespace sslam::cli

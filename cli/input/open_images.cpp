@@ -2,6 +2,7 @@
 #include "cli/input/open_images.hpp"
 
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,23 @@ bool is_video_of_images(const std::filesystem::path& path) {
   throw Error(path.string() + ": holds several images, which are not read as a video; " + kTakeApart);
 }
 
+// A photo that is named as a video. Bare MJPEG, too, begins as a JPEG, and goes on behind its end.
+void refuse_named_photo(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::vector<std::uint8_t> bytes(4096);
+  if (!io::is_video_name(path) || !std::filesystem::is_regular_file(path, ignored)) return;
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  ImageHeader header = read_image_header(bytes);
+  std::string why;
+  if (header.format == ImageFormat::kOther || !open_image(path, bytes, header, why) || header.several ||
+      (header.end > 0 && header.end < bytes.size()))
+    return;
+  throw Error(path.string() +
+              ": is one image, whatever its name says; a run needs a video, or a folder of images");
+}
+
 }  // namespace
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -43,6 +61,7 @@ std::string_view layout_name(io::Layout layout) {
 
 io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions& options,
                         const io::BagTopics& topics, std::int64_t at_most) {
+  refuse_named_photo(path);
   io::Dataset dataset = is_video_of_images(path) ? io::read_video(path) : io::open_dataset(path, options);
   const bool bag = dataset.layout == io::Layout::kBag;
   if (!bag && !(topics.images.empty() && topics.depth.empty()))
@@ -58,9 +77,10 @@ io::Dataset open_frames(const std::filesystem::path& path, const io::OpenOptions
 io::Dataset open_images(const std::filesystem::path& path, const io::BagTopics& topics) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) {
-    if (io::is_image_name(path))
+    const bool video = io::is_video_file(path);
+    if (!video && io::is_image_name(path))
       return io::frames_from_images(folder_of(path), {path}, io::kDefaultFrameRate);
-    if (!io::is_video_file(path) && !io::is_bag_name(path))
+    if (!video && !io::is_bag_name(path))
       throw Error(
           path.string() +
           ": is neither an image (png, jpg, ...) nor a video (mp4, avi, ...) nor a bag (bag, mcap, db3)");

@@ -40,7 +40,8 @@ ScaleWish parse_scale(const std::string& text) {
     return wish;
   }
   const auto equals = text.find('=');
-  const std::string name = text.substr(0, equals);
+  std::string name = text.substr(0, equals);
+  if (name == "baseline") name = "known";  // of two frames: the same
   if (equals == std::string::npos || (name != "height" && name != "known"))
     throw UsageError("--scale " + text + ": " + kExpected);
   std::string value = text.substr(equals + 1);

@@ -90,6 +90,24 @@ class Datasets(unittest.TestCase):
             self.assertTrue(any("ASSUMING a field of view" in t for t in text), text)
             self.assertTrue(any(second.name in t and "skipped" in t for t in text), text)
 
+    def test_a_scan_has_poses_and_depth_by_the_numbers_of_its_frames(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scan = pathlib.Path(folder)
+            images = sorted((ROOM / "rgb").iterdir())[:4]
+            (scan / "rgb.mp4").write_bytes(b"".join(path.read_bytes() for path in images))  # bare MJPEG
+            (scan / "camera_matrix.csv").write_text("240.0,0.0,159.5\n0.0,240.0,119.5\n0.0,0.0,1.0\n")
+            (scan / "odometry.csv").write_text("timestamp, frame, x, y, z, qx, qy, qz, qw\n" + "".join(
+                f"{100 + 0.1 * i}, {i:06}, {i}, 0, 0, 0, 0, 0, 1\n" for i in (0, 1, 3)))
+            (scan / "depth").mkdir()
+            shutil.copy(images[0], scan / "depth" / "000001.png")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                dataset = sslam.open_dataset(scan)
+                listed = list(dataset)
+            self.assertEqual((len(listed), dataset.has_depth, dataset.depth_factor), (4, True, 1000))
+            self.assertEqual((dataset.camera.fx, dataset.camera.cx), (240, 159.5))
+            self.assertEqual([None if f.pose is None else f.pose[0, 3] for f in listed], [0, 1, None, 3])
+
     def test_a_wide_lens_is_looked_through(self):
         text = "".join(f"Camera.{key}: {value}\n" for key, value in (
             ("type", "KannalaBrandt8"), ("fx", 100), ("fy", 100), ("cx", 159.5), ("cy", 119.5), ("width", 320), ("height", 240),

@@ -174,4 +174,16 @@ TEST_CASE("a preview beside the image of a TIFF is no second page") {
   CHECK(header_of(1).size == cv::Size(40, 24));
 }
 
+TEST_CASE("A photo that is named as a video is told as one, and bare MJPEG is a video") {
+  const testing::ScratchFolder scratch;
+  const std::string photo = encoded(".jpg", 120);
+  const auto complaint = [&](const std::string& name, const std::string& bytes) {
+    const auto file = scratch.write(name, bytes);
+    return error_of([&] { (void)cli::open_frames(file, {}, {}); });
+  };
+  CHECK(contains(complaint("walk.mp4", photo), "is one image, whatever its name says"));
+  CHECK(contains(complaint("walk.avi", encoded(".png", 120)), "is one image, whatever its name says"));
+  CHECK(complaint("walk.mjpeg", photo + encoded(".jpg", 40)).empty());
+}
+
 }  // namespace animated_test

@@ -33,8 +33,8 @@ struct Room {
   }
 };
 
-// A JPEG of nothing but the block that holds a focal length of 26 mm.
-std::string exif_jpeg(bool big_endian) {
+// A JPEG of nothing but the block that holds a focal length, in millimetres.
+std::string exif_jpeg(bool big_endian, unsigned focal = 26) {
   const auto number = [big_endian](unsigned value, int size) {
     std::string bytes;
     for (int i = 0; i < size; ++i) {
@@ -46,8 +46,8 @@ std::string exif_jpeg(bool big_endian) {
   const std::string tiff = (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) +       // heading
                            number(1, 2) + number(0x8769, 2) + number(4, 2) + number(1, 4) +  // where the
                            number(26, 4) + number(0, 4) +                                    // photo's is
-                           number(1, 2) + number(0xA405, 2) + number(3, 2) + number(1, 4) +  // 26 mm
-                           number(26, 2) + number(0, 2) + number(0, 4);
+                           number(1, 2) + number(0xA405, 2) + number(3, 2) + number(1, 4) +  // the length
+                           number(focal, 2) + number(0, 2) + number(0, 4);
   return std::string("\xff\xd8\xff\xe1\x00\x40", 6) + std::string("Exif\0\0", 6) + tiff + "\xff\xd9";
 }
 
@@ -103,8 +103,10 @@ TEST_CASE("Without any calibration: --focal, --fov, Exif, or a guess that is tol
   }
 }
 
-TEST_CASE("Exif that is cut off says nothing") {
+TEST_CASE("Exif that is cut off, or has a length of no lens, says nothing") {
   const testing::ScratchFolder scratch;
+  for (const unsigned focal : {0U, 2U, 60000U})
+    CHECK(cli::exif_focal(scratch.write("b.jpg", exif_jpeg(false, focal)), 4000, 3000) == 0);
   const std::string whole = exif_jpeg(true);
   for (std::size_t bytes = 0; bytes + 11 < whole.size(); ++bytes)
     REQUIRE(cli::exif_focal(scratch.write("a.jpg", whole.substr(0, bytes)), 4000, 3000) == 0);

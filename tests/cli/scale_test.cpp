@@ -102,7 +102,7 @@ TEST_CASE("run --scale known takes the distance between two frames") {
   };
   require_metres(copy, copy.run("--scale known=" + apart(5, 50) + "@5:50"), "known", 0.03);
   REQUIRE(copy.metrics()["scale"]["spread"].is_null());
-  require_refused(copy.run("--scale known=1@5:600"),
+  require_refused(copy.run("--scale baseline=1@5:600"),
                   "--scale known: frame 600 is not among those that are tracked, 0 to 59");
   // A map in metres stays one for the runs that go on in it.
   const fs::path map = copy.scratch.path() / "kept";

@@ -17,6 +17,13 @@ namespace sslam {
   using namespace std::string_view_literals;
   using Kind = std::pair<std::string_view, std::string_view>;
   constexpr std::array kKinds{Kind{"PK\3\4"sv, "is an archive (.zip or NumPy's .npz)"},
+                              Kind{"\x1f\x8b"sv, "is compressed (gzip); unpack it"},
+                              Kind{"BZh"sv, "is compressed (bzip2); unpack it"},
+                              Kind{"\xFD"
+                                   "7zXZ"sv,
+                                   "is compressed (xz); unpack it"},
+                              Kind{"\x28\xB5\x2F\xFD"sv, "is compressed (zstd); unpack it"},
+                              Kind{"7z\xBC\xAF"sv, "is an archive (.7z)"},
                               Kind{"\x93NUMPY"sv, "is an array of NumPy (.npy)"},
                               Kind{"\x80\2"sv, "is pickled by Python"},
                               Kind{"\x80\3"sv, "is pickled by Python"},

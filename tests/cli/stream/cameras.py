@@ -53,12 +53,14 @@ class Camera:
 
 
 class RtspCamera(Camera):
-    """The same in the words of RTSP (RFC 2326), with frames as RTP has JPEG (RFC 2435), all by one connection."""
+    """The same in the words of RTSP (RFC 2326), with frames as RTP has JPEG (RFC 2435), all by one connection. With a
+    `challenge`, a head such as b"WWW-Authenticate: ...", it lets nobody in."""
 
     SDP = b"v=0\r\no=- 0 0 IN IP4 127.0.0.1\r\ns=camera\r\nc=IN IP4 0.0.0.0\r\nt=0 0\r\nm=video 0 RTP/AVP 26\r\na=control:track\r\n"
 
-    def __init__(self, play):
+    def __init__(self, play, challenge=b""):
         super().__init__(play)
+        self.challenge = challenge
         self.address = self.address.replace("http", "rtsp")
         self.sequence = 0
 
@@ -72,6 +74,9 @@ class RtspCamera(Camera):
                 sent = dict(line.split(b": ", 1) for line in request[1:])
                 method = request[0].split()[0]
                 head, body = b"", b""
+                if method == b"DESCRIBE" and self.challenge:
+                    connection.sendall(b"RTSP/1.0 401 Unauthorized\r\nCSeq: %s\r\n%s\r\n\r\n" % (sent[b"CSeq"], self.challenge))
+                    continue
                 if method == b"DESCRIBE":
                     head, body = b"Content-Type: application/sdp\r\nContent-Length: %d\r\n" % len(self.SDP), self.SDP
                 if method == b"SETUP":

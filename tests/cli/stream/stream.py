@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from cameras import Camera
+from cameras import Camera, RtspCamera
 from network_cases import check_lost, check_network, check_rtsp, check_silent
 from runs import FRAMES, Run, feed, figures, make_room, rows, same_tracking
 
@@ -184,6 +184,12 @@ def check_refusals(program, scratch):
         refused(camera.address, words="closes the connection without an answer")
     with Camera(lambda number, send: send(b"HTTP/1.1 401 Unauthorized\r\n\r\n")) as camera:
         refused(camera.address, words="needs a user name and a password, or refuses those given (401 Unauthorized); expected http://USER:PASSWORD@127.0.0.1/")
+    for challenge in (b'WWW-Authenticate: Digest realm="camera", nonce="1"', b'WWW-Authenticate: Basic realm="camera"'):
+        with RtspCamera(None, challenge) as camera:
+            for user in ("", "user:secret@"):
+                refused(camera.address.replace("//", "//" + user),
+                        words="(401 Unauthorized); expected rtsp://USER:PASSWORD@127.0.0.1/")
+            assert len(camera.connections) == 2  # not tried again
     with Camera(lambda number, send: send(b"HTTP/1.1 503 Busy\r\n\r\n")) as camera:
         refused(camera.address, words="the server has failed")
     with Camera(lambda number, send: send(b"HTTP/1.1 404 Not Found\r\n\r\n")) as camera:

@@ -299,6 +299,15 @@ TEST_CASE("Videos are told by their name and filled in by who opens them") {
   for (const char* name : {"a.3gp", "a.ts", "a.m2ts", "a.gif"}) CHECK(io::is_video_name(name));
 }
 
+TEST_CASE("A video is told by its content, whatever its name says") {
+  const ScratchFolder scratch;
+  for (const char* name : {"walk.jpg", "walk.dat", "walk.bag"})
+    CHECK(io::open_dataset(scratch.write(name, std::string("\0\0\0\x18", 4) + "ftypmp42")).layout ==
+          io::Layout::kVideo);
+  CHECK(contains(error_of([&] { (void)io::open_dataset(scratch.write("one.jpg", "\xff\xd8\xff\xe0")); }),
+                 "is one image"));
+}
+
 TEST_CASE("Links to images that are not there are told, not passed over") {
   const ScratchFolder scratch;
   for (int i = 0; i < 3; ++i)

@@ -46,11 +46,11 @@ std::string as_utf16(const std::string& text, bool high_first) {
 TEST_CASE("A list reads the same in whatever encoding and with whatever separators it is written") {
   const ScratchFolder scratch;
   const std::string plain = row_list(" ", "", "\n");
-  const auto list = GENERATE_COPY(as<std::string>{}, plain, "\xEF\xBB\xBF" + row_list(" ", "", "\r\n"),
-                                  row_list("\t", "", "\r"), "\xFF\xFE" + as_utf16(plain, false),
-                                  "\xFE\xFF" + as_utf16(plain, true), as_utf16(plain, false),
-                                  "timestamp,filename\n" + row_list(",", "\"", "\n"), row_list(";", "", "\n"),
-                                  row_list(" , ", "'", "\n"), row_list("; ", "\"", "\r\n"));
+  const auto list = GENERATE_COPY(
+      as<std::string>{}, plain, "\xEF\xBB\xBF" + row_list(" ", "", "\r\n"), row_list("\t", "", "\r"),
+      "\xFF\xFE" + as_utf16(plain, false), "\xFE\xFF" + as_utf16(plain, true), as_utf16(plain, false),
+      "timestamp,filename\n" + row_list(",", "\"", "\n"), row_list(";", "", "\n"), row_list(" , ", "'", "\n"),
+      row_list("; ", "\"", "\r\n"), row_list("|", "", "\n"), "stamp | file\n" + row_list(" | ", "", "\n"));
   const io::Dataset dataset = open_list(scratch, list);
   CHECK(dataset.warnings.empty());
   REQUIRE(dataset.frames.size() == 5);
@@ -73,6 +73,15 @@ TEST_CASE("Names in lists may hold blanks, commas and backslashes, and have colu
   const char* expected[] = {"my images/im 1.jpg",      "my images/a, b.jpg", "rgb/2.png", "rgb/3.png",
                             "my images/c.jpg (2).jpg", "rgb/4.png",          "rgb/1.png"};
   for (std::size_t i = 0; i < 7; ++i) CHECK(dataset.frames[i].image == scratch.path() / expected[i]);
+}
+
+TEST_CASE("A list names files in the folder of its own name, by addresses, or with capital letters") {
+  const ScratchFolder scratch;
+  const io::Dataset dataset = open_list(scratch, "0.1 1.png\n0.2 2.PNG\n0.3 file:///home/me/rgb/3.png\n");
+  REQUIRE(dataset.frames.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(std::filesystem::path(dataset.frames[i].image).filename() == std::to_string(i + 1) + ".png");
+  CHECK(dataset.warnings.empty());
 }
 
 TEST_CASE("A name with blanks that is not there is told whole") {
@@ -173,7 +182,8 @@ TEST_CASE("Names of images are stamps in the unit that they can only have") {
   const ScratchFolder scratch;
   for (const std::string& name : c.names) {
     scratch.write(name + ".png");
-    scratch.write("._" + name + ".png");  // as macOS leaves them
+    scratch.write("._" + name + ".png");     // as macOS leaves them
+    scratch.write("." + name + ".tmp.jpg");  // as other programs do
   }
   const io::Dataset dataset = io::open_dataset(scratch.path(), {.frame_rate = 10});
   REQUIRE(dataset.frames.size() == c.names.size());

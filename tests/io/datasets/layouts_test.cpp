@@ -193,7 +193,8 @@ TEST_CASE("ScanNet layout: poses of minus infinity are none, depth is left out")
     scratch.write("color/" + n + ".jpg");
     scratch.write("depth/" + n + ".png");
     scratch.write("pose/" + n + ".txt",
-                  i == 5
+                  i == 6 ? "1 0 0 6\n0 1 0 0\n0 0 1 0\n"  // without the last row
+                  : i == 5
                       ? "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n"
                       : moved(i, '\n'));
   }
@@ -205,6 +206,8 @@ TEST_CASE("ScanNet layout: poses of minus infinity are none, depth is left out")
   CHECK(dataset.world_from_cam(dataset.frames[5]) == nullptr);
   REQUIRE(dataset.world_from_cam(dataset.frames[11]) != nullptr);
   CHECK(dataset.world_from_cam(dataset.frames[11])->translation.x() == 11);
+  REQUIRE(dataset.world_from_cam(dataset.frames[6]) != nullptr);
+  CHECK(dataset.world_from_cam(dataset.frames[6])->translation.x() == 6);
   CHECK(dataset.frames[3].depth.empty());
   REQUIRE(dataset.warnings.size() == 2);
   CHECK(contains(dataset.warnings[0], "depth left out"));

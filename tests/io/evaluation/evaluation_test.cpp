@@ -286,7 +286,7 @@ TEST_CASE("Doubtful figures say why") {
   }
   CHECK(contains(notes(truth, w_first, kScaled), "the estimate's quaternions seem to have w first"));
   CHECK(contains(notes(w_first, truth, kScaled), "the ground truth's quaternions seem to have w first"));
-  CHECK(contains(notes(truth, inverse, kScaled), "world to camera"));
+  CHECK(contains(notes(truth, inverse, kScaled), "inverted (world to camera, or quaternions of JPL's kind)"));
   CHECK(contains(notes(line, line, kScaled), "lie on a line"));
   CHECK(contains(notes(thousandth, truth, kRigid), "the estimate seems to be in millimetres"));
   CHECK(contains(notes(truth, thousandth, kRigid), "the ground truth seems to be in millimetres"));

@@ -64,9 +64,28 @@ TEST_CASE("Commas that separate are no decimal commas") {
 TEST_CASE("Files that are no trajectory are told by their kind") {
   using namespace std::string_literals;
   CHECK(contains(error_of([] { (void)read_rows("<!DOCTYPE html>\n<html></html>\n"); }), "is a web page"));
+  CHECK(contains(error_of([] { (void)read_rows("\x1f\x8b\10"); }), "is compressed (gzip); unpack it"));
   CHECK(contains(error_of([] { (void)read_rows("PK\3\4\0\0abc"s); }), "is an archive"));
   CHECK(contains(error_of([] { (void)read_rows("version https://git-lfs.github.com/spec/v1\n"); }),
                  "git lfs pull"));
+}
+
+TEST_CASE("Poses between bars, and as Python prints lists and tuples") {
+  for (const char* text :
+       {"t | tx | ty | tz | qx | qy | qz | qw\n0.5 | 1 | 2 | 3 | 0 | 0 | 0 | 1\n", "0.5|1|2|3|0|0|0|1\n",
+        "[0.5, 1, 2, 3, 0, 0, 0, 1]\n", "(0.5, 1., 2, 3, 0, 0, 0, 1)\n", "[[0.5 1 2 3 0 0 0 1]]\n"}) {
+    CAPTURE(text);
+    const io::Trajectory poses = read_rows(text);
+    REQUIRE(poses.size() == 1);
+    CHECK(poses[0].stamp == 0.5);
+    CHECK(poses[0].world_from_cam.translation == Vec3<double>(1, 2, 3));
+  }
+}
+
+TEST_CASE("Rotations as roll, pitch and yaw are refused by these names") {
+  for (const char* head : {"timestamp,x,y,z,roll,pitch,yaw\n", "timestamp,x,y,z,yaw,pitch,roll,confidence\n"})
+    CHECK(contains(error_of([head] { (void)read_rows(head + std::string("0.1,1,2,3,0,0,0,1\n")); }),
+                   "as roll, pitch and yaw"));
 }
 
 TEST_CASE("Stamps from 0 are of another unit only if both last about as long") {

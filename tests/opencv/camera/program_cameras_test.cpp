@@ -441,3 +441,74 @@ TEST_CASE("What calibration programs write beside their camera file is refused w
   check_refusal("% Camera\nfc = [ 657.3 ; 657.7 ];\ncc = [ 302 ; 242 ];\nkc = [ -0.2 ; 0.1 ; 0 ; 0 ; 0 ];\n",
                 "is a script of MATLAB's calibration toolbox");
 }
+
+TEST_CASE("YAML with anchors, long texts and merged maps, as PyYAML and people write it") {
+  using namespace program_cameras_test;
+  const std::string kalibr =
+      "base: &base\n  camera_model: pinhole\n  distortion_model: radtan\n  resolution: [752, 480]\n"
+      "cam0:\n  <<: *base\n  comment: |\n    of Monday: the\n\n      left one\n  resolution: [640, 480]\n"
+      "  intrinsics: &plane [461.5, 460.25, 363, 248.5]\n  distortion_coeffs: [0, 0, 0, 0]\n";
+  const CameraFile file = read_as(kalibr + "cam1:\n  intrinsics: *plane\n");
+  check_plane(file, kPlane, 640, 480);  // what the map has itself counts
+  REQUIRE_FALSE(file.notes.empty());
+  CHECK(file.notes.back().find("has 2 cameras; cam0 is taken") != std::string::npos);
+  check_refusal("fx: *nowhere\n", "line 1: '*nowhere' is named nowhere before");
+  std::string copies = "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (char name = 'b'; name < 'k'; ++name) {
+    copies += std::string(1, name) + ": &" + name + "\n";
+    for (int i = 0; i < 10; ++i) copies += std::string("- *") + static_cast<char>(name - 1) + "\n";
+  }
+  check_refusal(copies, "repeats more than any calibration holds");
+  check_refusal("fx:461.5\nfy:460.25\n", "YAML needs a blank behind the colon");
+}
+
+TEST_CASE("A camera is found below other maps, in a list, and whatever the case of its keys") {
+  using namespace program_cameras_test;
+  const std::string numbers = R"("fx": "461.5", "fy": 460.25, "cx": 363, "cy": 248.5)";
+  check_plane(read_as("{\"sensors\": {\"rgb_left\": {\"calibration\": {" + numbers + "}}}}"), kPlane, 0, 0);
+  check_plane(read_as("[{" + numbers + ", \"width\": 752, \"height\": 480}]"), kPlane, 752, 480);
+  check_refusal("{\"rig\": [{\"a\": {" + numbers + "}}, {\"b\": {" + numbers + "}}]}",
+                "has several cameras: rig[0].a, rig[1].b");
+  check_plane(read_as("FX: 461.5\nFY: 460.25\nCX: 363\nCY: 248.5\nWidth: 752\nHeight: 480\n"), kPlane, 752,
+              480);
+  check_plane(read_as("cam1:\n  camera_model: pinhole\n  intrinsics: [461.5, 460.25, 363, 248.5]\n"
+                      "  distortion_model: none\n  distortion_coeffs: []\n  resolution: [752, 480]\n"),
+              kPlane, 752, 480);
+}
+
+TEST_CASE("Numbers of a camera in one row with their names, in NumPy's print, or below a comment") {
+  using namespace program_cameras_test;
+  for (const char* row :
+       {"fx=461.5, fy=460.25, cx=363, cy=248.5\n", "fx: 461.5; fy: 460.25; cx: 363; cy: 248.5",
+        "% fx fy cx cy\n461.5 460.25 363 248.5\n", "// fx fy cx cy\n461.5 460.25 363 248.5\n",
+        "[camera]\nfx = 461.5 ; pixels\nfy = 460.25\ncx = 363\ncy = 248.5\n",
+        "array([[461.5 ,   0.  , 363.  ],\n       [  0.  , 460.25, 248.5 ],\n"
+        "       [  0.  ,   0.  ,   1.  ]])\n"}) {
+    INFO(row);
+    check_plane(read_as(row), kPlane, 0, 0);
+  }
+  const CameraFile square = read_as(R"({"f": 461.5, "cx": 363, "cy": 248.5, "width": 752, "height": 480})");
+  check_plane(square, {461.5, 461.5, 363, 248.5}, 752, 480);
+  check_plane(
+      read_as("focal_length: [461.5, 460.25]\nprincipal_point: [363, 248.5]\nimage_size: [752, 480]\n"),
+      kPlane, 752, 480);
+  check_refusal("  Width:   640\n  PPX:   320\n  PPY:   240\n  Fx:   600\n  Fy:   600\n",
+                "is what RealSense's tools print");
+}
+
+TEST_CASE("The size beside a matrix as a list, a region of ROS, and a lens under a name of its own") {
+  using namespace program_cameras_test;
+  const std::string matrix = "[461.5, 0, 363, 0, 460.25, 248.5, 0, 0, 1]";
+  for (const char* name : {"image_size", "resolution", "imageResolution"})
+    check_plane(read_as("{\"camera_matrix\": " + matrix + ", \"" + name + "\": [752, 480]}"), kPlane, 752,
+                480);
+  const std::string ros =
+      "width: 752\nheight: 480\nK: " + matrix + "\nroi:\n  x_offset: 60\n  y_offset: 40\n";
+  const CameraFile region = read_as(ros + "  width: 640\n  height: 400\n");
+  check_plane(region, {461.5, 460.25, 303, 208.5}, 640, 400);
+  REQUIRE(region.notes.size() == 1);
+  CHECK(region.notes[0].find("region of interest (roi), 640x400") != std::string::npos);
+  check_plane(read_as(ros + "  width: 0\n  height: 0\n"), kPlane, 752, 480);
+  check_refusal("K: " + matrix + "\nradial_distortion: [0.1, -0.2]\n",
+                "line 2: radial_distortion is not known");
+}

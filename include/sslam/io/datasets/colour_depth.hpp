@@ -103,7 +103,7 @@ inline void attach_depth_folder(Dataset& dataset, const std::filesystem::path& f
 // the file has them. `pose_from_cam`: where the poses' axes are not the camera's.
 inline void attach_pose_rows(Dataset& dataset, const std::filesystem::path& file,
                              const SE3<double>& pose_from_cam = {}) {
-  try {
+  attach_or_leave_out(dataset, [&] {
     PoseFile poses = read_pose_file(file, dataset.warnings);
     const bool in_order = poses.trajectory.size() + poses.no_pose == dataset.frames.size();
     std::map<std::size_t, double> stamps;  // by row
@@ -119,9 +119,7 @@ inline void attach_pose_rows(Dataset& dataset, const std::filesystem::path& file
     }
     order_by_stamp(truth, file, dataset.warnings);
     attach_body_truth(dataset, std::move(truth), pose_from_cam, file);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
 }
 
 [[nodiscard]] inline Dataset read_colour_depth(const std::filesystem::path& root, double frame_rate) {

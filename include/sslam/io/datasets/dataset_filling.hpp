@@ -30,6 +30,17 @@ inline void leave_truth_out(Dataset& dataset, std::string why) {
   dataset.warnings.push_back(dataset.truth_problem + "; ground truth left out");
 }
 
+// What `attach` finds of the ground truth is given to the frames; one that it refuses by an Error is left
+// out.
+template <class Attach>
+void attach_or_leave_out(Dataset& dataset, Attach attach) {
+  try {
+    attach();
+  } catch (const Error& error) {
+    leave_truth_out(dataset, error.what());
+  }
+}
+
 // Gives each frame the pose nearest in time. A ground truth on another clock is left out with a warning.
 inline void attach_ground_truth(Dataset& dataset, Trajectory truth, const std::filesystem::path& source) {
   const std::vector<double> stamps = frame_stamps(dataset);
@@ -56,13 +67,11 @@ inline void attach_ground_truth(Dataset& dataset, Trajectory truth, const std::f
 inline void attach_truth_file(Dataset& dataset, const std::filesystem::path& file, bool mirrored = false) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return;
-  try {
+  attach_or_leave_out(dataset, [&] {
     Trajectory truth = read_trajectory(file, dataset.warnings);
     if (mirrored) mirror_y(truth);
     attach_ground_truth(dataset, std::move(truth), file);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
 }
 
 // Sorts by stamp; of equal stamps the first in the list is kept.

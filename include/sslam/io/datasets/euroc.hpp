@@ -46,7 +46,7 @@ inline void attach_euroc_truth(Dataset& dataset, const std::filesystem::path& ma
   for (const char* name : {"state_groundtruth_estimate0", "mocap0"}) {
     const std::filesystem::path file = mav / name / "data.csv";
     if (!std::filesystem::is_regular_file(file, ignored)) continue;
-    try {
+    attach_or_leave_out(dataset, [&] {
       const bool has_sensor = std::filesystem::is_regular_file(sensor, ignored);
       if (!has_sensor && !std::filesystem::is_regular_file(chain, ignored))
         throw Error(file.string() + ": holds the body's poses, and without T_BS in " + sensor.string() +
@@ -58,9 +58,7 @@ inline void attach_euroc_truth(Dataset& dataset, const std::filesystem::path& ma
       std::erase(notes, file.string() + ": " + unit_note(kNanoseconds));  // as the layout has them
       dataset.warnings.insert(dataset.warnings.end(), notes.begin(), notes.end());
       attach_body_truth(dataset, std::move(truth), body_from_cam, file);
-    } catch (const Error& error) {
-      leave_truth_out(dataset, error.what());
-    }
+    });
     return;
   }
 }
@@ -73,8 +71,8 @@ inline void attach_euroc_truth(Dataset& dataset, const std::filesystem::path& ma
   const std::filesystem::path list = camera / "data.csv";
   Dataset dataset;
   if (std::filesystem::is_regular_file(list, ignored)) {
-    take_listed_frames(dataset, read_file_list(list, camera / "data", dataset.warnings), list);
-    std::erase(dataset.warnings, list.string() + ": " + unit_note(kNanoseconds));
+    take_listed_frames(dataset,
+                       read_file_list(list, camera / "data", dataset.warnings, {.unit = kNanoseconds}), list);
   } else {
     const auto images = list_files(camera / "data", is_image_name);
     if (stamps_of_names(images).seconds.empty())

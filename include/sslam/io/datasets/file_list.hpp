@@ -3,6 +3,7 @@
 // backslashes, with more columns behind them, with a counter in front, or of another computer's folders.
 #pragma once
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -37,6 +38,7 @@ namespace file_list_detail {
 // counts.
 [[nodiscard]] inline std::string find_listed(const std::filesystem::path& root, std::string name) {
   if (is_file(root / name)) return (root / name).string();
+  if (name.starts_with("file://")) name.erase(0, std::string_view("file://").size());
   for (char& c : name)
     if (c == '\\') c = '/';
   const bool absolute = name.starts_with('/') || (name.size() > 1 && name[1] == ':');
@@ -58,10 +60,20 @@ namespace file_list_detail {
   return (root / name).string();
 }
 
-// The same, with the extension of an image where the name has none.
+// The same, with the extension of an image where the name has none, and in small or capital letters, which
+// are the same on other systems.
 [[nodiscard]] inline std::string find_image(const std::filesystem::path& root, const std::string& name) {
   std::string file = find_listed(root, name);
   if (is_file(file)) return file;
+  if (const std::filesystem::path path = file; is_image_name(path))
+    for (const bool small : {true, false}) {
+      std::string extension = path.extension().string();
+      for (char& c : extension)
+        c = static_cast<char>(small ? std::tolower(static_cast<unsigned char>(c))
+                                    : std::toupper(static_cast<unsigned char>(c)));
+      if (auto other = std::filesystem::path(path).replace_extension(extension); is_file(other))
+        return other.string();
+    }
   for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG", ".webp"})
     if (std::string longer = find_listed(root, name + extension); is_file(longer)) return longer;
   return file;
@@ -70,10 +82,7 @@ namespace file_list_detail {
 // Takes cells from the front of a row.
 class RowReader {
  public:
-  explicit RowReader(std::string_view row)
-      : left_(row), separators_(row.find(';') == std::string_view::npos ? " \t," : " \t;") {
-    skip();
-  }
+  explicit RowReader(std::string_view row) : left_(row), separators_(cell_separators(row)) { skip(); }
 
   [[nodiscard]] bool done() const noexcept { return left_.empty(); }
 
@@ -141,7 +150,18 @@ class RowReader {
   if (stamp) return StampedFile{*stamp, row.take_file(root)};
   const auto second = is_image_name(first) ? parse_decimal(row.take_cell()) : std::nullopt;
   if (!second || !std::isfinite(*second)) return std::nullopt;
-  return StampedFile{*second, find_listed(root, std::string(first))};
+  return StampedFile{*second, find_image(root, std::string(first))};
+}
+
+// Where the names of a list without folders lie: in the folder of the list's own name, as rgb/ beside
+// rgb.txt, if the first row's file is there alone.
+[[nodiscard]] inline std::filesystem::path root_of_names(const std::filesystem::path& list,
+                                                         const std::filesystem::path& root, RowReader first) {
+  const std::filesystem::path folder = root / list.stem();
+  const auto entry = take_stamped_file(first, root);
+  if (!entry || is_file(entry->file)) return root;
+  const std::filesystem::path name = std::filesystem::path(entry->file).filename();
+  return root / name == entry->file && is_file(find_image(folder, name.string())) ? folder : root;
 }
 
 // Whether each row counts itself in front of its stamp, as those of UZH-FPV do. The stamps increase; behind a
@@ -162,27 +182,30 @@ class RowReader {
 
 }  // namespace file_list_detail
 
-// What is said of a list whose rows begin with their number.
-inline constexpr std::string_view kCountedNote = ": its first column counts the rows: left out";
+// What the layout of a list has, and no warning needs to tell.
+struct ListForm {
+  bool counted = false;  // its first column counts the rows
+  StampUnit unit{};
+};
 
-// Turns stamps into seconds, and says so where they were not.
+// Turns stamps into seconds, and says so where their unit is not the usual one.
 template <class Entry>
 void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesystem::path& source,
-                Warnings& warnings) {
+                Warnings& warnings, StampUnit usual = {}) {
   std::vector<double> stamps;
   stamps.reserve(entries.size());
   for (const Entry& entry : entries) stamps.push_back(entry.stamp);
   const StampUnit unit = stamp_unit_of(stamps, whose);
   if (unit.is_seconds()) return;
   for (Entry& entry : entries) entry.stamp /= unit.per_second;
-  warnings.push_back(source.string() + ": " + unit_note(unit));
+  if (unit.per_second != usual.per_second) warnings.push_back(source.string() + ": " + unit_note(unit));
 }
 
 // Rows of `stamp file`, file relative to root, stamps in seconds. `second`: of rows of `stamp file stamp
 // file`, what follows; null: not wanted. Throws Error when nothing usable is in the list.
 [[nodiscard]] inline std::vector<StampedFile> read_file_list(const std::filesystem::path& list,
                                                              const std::filesystem::path& root,
-                                                             Warnings& warnings,
+                                                             Warnings& warnings, const ListForm& form = {},
                                                              std::vector<StampedFile>* second = nullptr) {
   std::string text = read_plain_text(list);
   if (const std::string kind = file_kind(text); !kind.empty())
@@ -192,27 +215,34 @@ void to_seconds(std::vector<Entry>& entries, StampsOf whose, const std::filesyst
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());
   if (rows.empty()) throw Error(list.string() + ": names no image; expected rows of 'stamp file'");
   const bool counted = file_list_detail::are_counted(rows);
-  if (counted) warnings.push_back(list.string() + std::string(kCountedNote));
+  if (counted && !form.counted)
+    warnings.push_back(list.string() + ": its first column counts the rows: left out");
   BadEntries bad(list);
   std::vector<StampedFile> files;
-  for (const TextRow& row : rows) {
+  const auto reader_of = [counted](const TextRow& row) {
     file_list_detail::RowReader reader(row.text);
     if (counted) (void)reader.take_cell();
-    auto file = file_list_detail::take_stamped_file(reader, root);
+    return reader;
+  };
+  const std::filesystem::path folder = file_list_detail::root_of_names(list, root, reader_of(rows.front()));
+  for (const TextRow& row : rows) {
+    file_list_detail::RowReader reader = reader_of(row);
+    auto file = file_list_detail::take_stamped_file(reader, folder);
     if (!file) {
       bad.add(row.line, "expected 'stamp file' with the stamp as a number, or as 2011-09-26T13:02:25.96");
       continue;
     }
-    if (file_list_detail::has_second_number(*file, root)) {
+    if (file_list_detail::has_second_number(*file, folder)) {
       bad.add(row.line, "has two numbers before the file; expected 'stamp file', with a decimal point");
       continue;
     }
     files.push_back(std::move(*file));
     if (second == nullptr) continue;
-    if (auto other = file_list_detail::take_stamped_file(reader, root)) second->push_back(std::move(*other));
+    if (auto other = file_list_detail::take_stamped_file(reader, folder))
+      second->push_back(std::move(*other));
   }
   bad.settle(rows.size(), warnings);
-  to_seconds(files, StampsOf::kImages, list, warnings);
+  to_seconds(files, StampsOf::kImages, list, warnings, form.unit);
   Warnings told;  // once is enough
   if (second != nullptr) to_seconds(*second, StampsOf::kImages, list, told);
   return files;

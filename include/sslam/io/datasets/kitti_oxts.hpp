@@ -82,7 +82,7 @@ inline void attach_oxts(Dataset& dataset, const std::filesystem::path& folder,
                         const std::filesystem::path& calibration, const std::string& camera, bool rectified,
                         const std::vector<double>& stamps) {
   using namespace kitti_oxts_detail;
-  try {
+  attach_or_leave_out(dataset, [&] {
     if (calibration.empty())
       throw Error(folder.string() +
                   ": holds the car's poses, and without calib_cam_to_cam.txt, calib_velo_to_cam.txt and "
@@ -115,9 +115,7 @@ inline void attach_oxts(Dataset& dataset, const std::filesystem::path& folder,
     bad.settle(files.size(), dataset.warnings);
     order_by_stamp(truth, folder, dataset.warnings);
     attach_ground_truth(dataset, std::move(truth), folder);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
 }
 
 }  // namespace sslam::io

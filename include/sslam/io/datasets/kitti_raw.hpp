@@ -71,16 +71,14 @@ namespace kitti_raw_detail {
 // KITTI-360: rows of a number and a 4x4 matrix, those of camera 00. `stamps`: of the images, by number.
 inline void attach_numbered_matrices(Dataset& dataset, const std::filesystem::path& file,
                                      const std::vector<double>& stamps) {
-  try {
+  attach_or_leave_out(dataset, [&] {
     const PoseFile poses = read_pose_file(file, dataset.warnings, kNoTimes);
     Trajectory truth;
     for (const StampedPose& pose : poses.trajectory)
       if (pose.stamp >= 0 && pose.stamp < static_cast<double>(stamps.size()))
         truth.push_back({stamps[static_cast<std::size_t>(pose.stamp)], pose.world_from_cam});
     attach_ground_truth(dataset, std::move(truth), file);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
 }
 
 [[nodiscard]] inline Dataset read_kitti_raw(const std::filesystem::path& root) {

@@ -71,16 +71,14 @@ inline void tell_missing_rows(Dataset& dataset, const std::filesystem::path& pos
   const std::filesystem::path poses = root / "traj.txt";
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(poses, ignored)) return dataset;
-  try {
+  attach_or_leave_out(dataset, [&] {
     PoseFile file = read_pose_file(poses, dataset.warnings);
     for (StampedPose& pose : file.trajectory)
       if (file.counted) pose.stamp /= kReplicaFrameRate;
     const std::size_t rows = file.trajectory.size() + file.no_pose;
     attach_ground_truth(dataset, std::move(file.trajectory), poses);
     if (file.no_pose == 0) tell_missing_rows(dataset, poses, rows);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
   return dataset;
 }
 
@@ -137,7 +135,7 @@ inline void tell_missing_rows(Dataset& dataset, const std::filesystem::path& pos
   if (std::filesystem::is_regular_file(root / "calib.txt", ignored)) dataset.camera_file = root / "calib.txt";
   const std::filesystem::path poses = find_kitti_poses(root);
   if (poses.empty()) return dataset;
-  try {
+  attach_or_leave_out(dataset, [&] {
     PoseFile file = read_pose_file(poses, dataset.warnings, kNoTimes);
     const std::size_t rows = file.trajectory.size() + file.no_pose;
     const auto row_of = [](const StampedPose& pose) { return static_cast<std::size_t>(pose.stamp); };
@@ -152,9 +150,7 @@ inline void tell_missing_rows(Dataset& dataset, const std::filesystem::path& pos
     if (images.filename() != "image_0")
       dataset.warnings.push_back(poses.string() + ": poses of image_0, taken for " +
                                  images.filename().string());
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
   return dataset;
 }
 

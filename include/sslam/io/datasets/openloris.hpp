@@ -69,16 +69,14 @@ namespace openloris_detail {
   dataset.camera_file = first_file({root / "sensors.yaml"});
   const auto truth = first_file({root / "groundtruth.txt"});
   if (truth.empty()) return dataset;
-  try {
+  attach_or_leave_out(dataset, [&] {
     if (first_file({transforms}).empty())
       throw Error(truth.string() + ": holds the poses of the robot's base, and without " +
                   transforms.string() + " the camera's are not known");
     const SE3<double> base_from_cam =
         openloris_detail::parent_from_child(transforms, "base_link", "d400_color_optical_frame");
     attach_body_truth(dataset, read_trajectory(truth, dataset.warnings), base_from_cam, truth);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
   return dataset;
 }
 

@@ -25,6 +25,7 @@ namespace sslam::io {
   for (const TextRow& row : split_rows(text))
     for (const std::string_view cell : row.cells)
       if (const auto number = parse_cell(cell)) v.push_back(*number);
+  if (v.size() == 12) v.insert(v.end(), {0, 0, 0, 1});  // without its last row
   std::optional<SE3<double>> pose;
   why.clear();
   if (v.size() != 16) {
@@ -60,13 +61,11 @@ class PoseFiles {
   // Call once, when all frames have been seen.
   void settle(Dataset& dataset) const {
     if (no_pose_ > 0) dataset.warnings.push_back(no_pose_note(folder_, no_pose_, files_));
-    try {
+    attach_or_leave_out(dataset, [&] {
       bad_.settle(files_ - no_pose_, dataset.warnings);
       if (files_ > 0 && files_ == no_pose_)
         leave_truth_out(dataset, folder_.string() + ": none of its poses is one");
-    } catch (const Error& error) {
-      leave_truth_out(dataset, error.what());
-    }
+    });
   }
 
  private:

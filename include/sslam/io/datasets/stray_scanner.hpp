@@ -66,7 +66,7 @@ inline void complete_stray_scan(Dataset& dataset) {
     any_depth = true;
   }
   if (!any_depth) tell_unread_depth(dataset, folder / "depth");
-  try {
+  attach_or_leave_out(dataset, [&] {
     const std::map<double, std::int64_t> numbers = stray_scanner_detail::frame_numbers(odometry);
     Trajectory truth;
     for (const StampedPose& pose : read_pose_file(odometry, dataset.warnings, kNoTimes).trajectory) {
@@ -77,9 +77,7 @@ inline void complete_stray_scan(Dataset& dataset) {
     }
     order_by_stamp(truth, odometry, dataset.warnings);
     attach_ground_truth(dataset, std::move(truth), odometry);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
 }
 
 }  // namespace sslam::io

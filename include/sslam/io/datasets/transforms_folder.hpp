@@ -92,11 +92,8 @@ inline constexpr double kTransformsDepthFactor = 1000;  // millimetres
   if (transforms.no_pose > 0)
     dataset.warnings.push_back(no_pose_note(file, transforms.no_pose, transforms.frames.size()));
   drop_bad_frames(dataset, file);
-  try {
-    transforms.bad_poses.settle(transforms.frames.size(), dataset.warnings);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  attach_or_leave_out(dataset,
+                      [&] { transforms.bad_poses.settle(transforms.frames.size(), dataset.warnings); });
   return dataset;
 }
 

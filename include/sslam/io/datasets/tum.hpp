@@ -95,7 +95,7 @@ inline void attach_depth(Dataset& dataset, const std::filesystem::path& list,
   }
   std::vector<StampedFile> partners;
   std::vector<StampedFile> files =
-      read_file_list(list, root, dataset.warnings, own_list ? nullptr : &partners);
+      read_file_list(list, root, dataset.warnings, {}, own_list ? nullptr : &partners);
   // Some tools write the depth image first.
   if (name_depth(files) && !partners.empty() && !name_depth(partners)) std::swap(files, partners);
   take_listed_frames(dataset, std::move(files), list);

@@ -44,24 +44,21 @@ namespace sslam::io {
   Dataset dataset;
   dataset.layout = Layout::kUzhFpv;
   dataset.root = root;
-  take_listed_frames(dataset, read_file_list(list, root, dataset.warnings), list);
-  std::erase(dataset.warnings, list.string() + std::string(kCountedNote));  // as the layout has them
+  take_listed_frames(dataset, read_file_list(list, root, dataset.warnings, {.counted = true}), list);
   const std::vector<std::filesystem::path> chains = list_files(root, [](const std::filesystem::path& name) {
     return name.extension() == ".yaml" && name.string().find("camchain") != std::string::npos;
   });
   if (!chains.empty()) dataset.camera_file = chains.front();
   const auto truth = first_file({root / "groundtruth.txt"});
   if (truth.empty()) return dataset;
-  try {
+  attach_or_leave_out(dataset, [&] {
     if (chains.empty())
       throw Error(truth.string() +
                   ": holds the poses of the IMU; the camera's are known with Kalibr's camchain (T_cam_imu), "
                   "which the dataset publishes as its calibration, in this folder");
     const SE3<double> imu_from_cam = read_yaml_pose(chains.front(), "T_cam_imu").inverse();
     attach_body_truth(dataset, read_trajectory(truth, dataset.warnings), imu_from_cam, truth);
-  } catch (const Error& error) {
-    leave_truth_out(dataset, error.what());
-  }
+  });
   return dataset;
 }
 

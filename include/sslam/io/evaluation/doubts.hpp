@@ -93,8 +93,8 @@ inline constexpr const char* kWFirst = "have w first: the rotations would agree;
   consider({changed(paired.truth, reorder), paired.estimate},
            "the ground truth's quaternions seem to " + order);
   consider({paired.truth, changed(paired.estimate, invert)},
-           "the estimate's poses seem to be world to camera: the rotations would agree; expected camera to "
-           "world");
+           "the estimate's rotations seem to be inverted (world to camera, or quaternions of JPL's kind): "
+           "inverted, they would agree; expected camera to world, and Hamilton's quaternions");
   for (int axis = 0; axis < 3; ++axis)
     consider(
         {paired.truth, changed(paired.estimate, [axis](SE3<double>& pose) { pose = mirrored(pose, axis); })},

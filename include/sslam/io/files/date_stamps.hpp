@@ -61,7 +61,8 @@ class Reader {
     return std::string(text_.substr(at_ - count, count));
   }
   [[nodiscard]] bool ends_cell() const noexcept {
-    return at_ >= text_.size() || std::string_view(" \t\r\n,;\"'").find(text_[at_]) != std::string_view::npos;
+    return at_ >= text_.size() ||
+           std::string_view(" \t\r\n,;|\"'").find(text_[at_]) != std::string_view::npos;
   }
 
  private:

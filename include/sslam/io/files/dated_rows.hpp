@@ -30,7 +30,8 @@ class DateReplacer {
     const bool semicolons = row.find(';') != std::string_view::npos;
     std::size_t done = 0;
     for (std::size_t at = 0; at < row.size(); ++at) {
-      const bool begins = at == 0 || std::string_view(" \t,;\"'").find(row[at - 1]) != std::string_view::npos;
+      const bool begins =
+          at == 0 || std::string_view(" \t,;|\"'").find(row[at - 1]) != std::string_view::npos;
       if (!begins || !date_stamps_detail::is_digit(row[at])) continue;
       const auto stamp = date_stamp_at(row.substr(at), semicolons);
       if (!stamp || (!stamp->dated && follows_number(row.substr(0, at)))) continue;

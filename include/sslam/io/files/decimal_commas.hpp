@@ -11,10 +11,10 @@
 
 namespace sslam::io {
 
-// Whether blanks, tabs or semicolons separate the row's numbers and each comma is within one. Commas may also
-// separate: a row in which a number has a point, or two commas, is no such row.
+// Whether blanks, tabs, semicolons or bars separate the row's numbers and each comma is within one. Commas
+// may also separate: a row in which a number has a point, or two commas, is no such row.
 [[nodiscard]] inline bool has_decimal_commas(std::string_view row) {
-  constexpr std::string_view kSeparators = " \t;\r";
+  constexpr std::string_view kSeparators = " \t;|\r";
   constexpr std::size_t kFewest = 3;
   std::size_t cells = 0, commas = 0;
   for (std::size_t at = row.find_first_not_of(kSeparators); at != std::string_view::npos; ++cells) {

@@ -116,9 +116,10 @@ namespace sslam::io {
   return text.find_first_of("*?") != std::string_view::npos;
 }
 
-// What macOS leaves beside a file "x" on other disks: "._x", with the same extension and none of its content.
-[[nodiscard]] inline bool is_apple_double(const std::filesystem::path& name) {
-  return name.string().starts_with("._");
+// Hidden: what programs keep for themselves, such as ".thumb.jpg", or what macOS leaves beside a file "x" on
+// other disks: "._x", with the same extension and none of its content.
+[[nodiscard]] inline bool is_hidden(const std::filesystem::path& name) {
+  return name.string().starts_with('.');
 }
 
 // In the natural order of their names.
@@ -134,8 +135,8 @@ inline void sort_by_name(std::vector<std::filesystem::path>& paths) {
   return entry.is_symlink(ignored) && !entry.exists(ignored);
 }
 
-// Files in a folder (not below it) that `wanted` accepts, in natural order. Empty when there is no such
-// folder.
+// Files in a folder (not below it), without hidden ones, that `wanted` accepts, in natural order. Empty when
+// there is no such folder.
 template <class Predicate>
 [[nodiscard]] std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder,
                                                             Predicate wanted) {
@@ -145,7 +146,7 @@ template <class Predicate>
        !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
     std::error_code ignored;
     const std::filesystem::path name = it->path().filename();
-    if ((it->is_regular_file(ignored) || is_dead_link(*it)) && !is_apple_double(name) && wanted(name))
+    if ((it->is_regular_file(ignored) || is_dead_link(*it)) && !is_hidden(name) && wanted(name))
       files.push_back(it->path());
   }
   sort_by_name(files);
@@ -164,8 +165,7 @@ template <class Predicate>
   for (auto it = std::filesystem::directory_iterator(folder, error);
        !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
     std::error_code ignored;
-    if (it->is_directory(ignored) && !it->path().filename().string().starts_with('.'))
-      folders.push_back(it->path());
+    if (it->is_directory(ignored) && !is_hidden(it->path().filename())) folders.push_back(it->path());
   }
   sort_by_name(folders);
   return folders;

@@ -46,10 +46,15 @@ inline constexpr std::size_t kLongestText = std::size_t{1} << 30;
   return read_rest(file, path, most);
 }
 
-// Cells separated by blanks, tabs and commas, as the TUM tools split them, or by semicolons: a comma is then
-// left in its cell. In quotes, single or double, all of these are part of a cell.
+// Between the cells of a row: blanks, tabs and commas, as the TUM tools split them, or semicolons and bars; a
+// comma is then left in its cell.
+[[nodiscard]] inline std::string_view cell_separators(std::string_view line) noexcept {
+  return line.find_first_of(";|") == std::string_view::npos ? " \t\r," : " \t\r;|";
+}
+
+// In quotes, single or double, separators are part of a cell.
 [[nodiscard]] inline std::vector<std::string_view> split_cells(std::string_view line) {
-  const std::string_view separators = line.find(';') == std::string_view::npos ? " \t,\r" : " \t;\r";
+  const std::string_view separators = cell_separators(line);
   std::vector<std::string_view> cells;
   for (std::size_t at = line.find_first_not_of(separators); at != std::string_view::npos;) {
     const bool quoted = line[at] == '"' || line[at] == '\'';
@@ -104,7 +109,7 @@ template <class Number>
   return value;
 }
 
-// The same, also with a decimal comma, which a cell has only where semicolons separate.
+// The same, also with a decimal comma, which a cell has only where semicolons or bars separate.
 [[nodiscard]] inline std::optional<double> parse_decimal(std::string_view text) {
   const std::size_t comma = text.find(',');
   if (comma == std::string_view::npos) return parse_number<double>(text);

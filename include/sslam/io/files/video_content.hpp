@@ -48,10 +48,9 @@ namespace sslam::io {
   return stands(0, "G"sv) && stands(kPacket, "G"sv) && stands(2 * kPacket, "G"sv);
 }
 
-// By its name or by its content.
+// By its name or by its content, whatever else the name says.
 [[nodiscard]] inline bool is_video_file(const std::filesystem::path& file) {
   if (is_video_name(file)) return true;
-  if (is_image_name(file) || is_bag_name(file)) return false;
   constexpr std::size_t kEnough = 512;
   std::string bytes(kEnough, '\0');
   std::ifstream stream(file, std::ios::binary);

@@ -20,6 +20,8 @@ namespace pose_columns_detail {
 
 inline constexpr std::size_t kColumns = 8;  // stamp tx ty tz qx qy qz qw
 
+inline constexpr std::array<std::string_view, 3> kEulerAngles{"roll", "pitch", "yaw"};
+
 // The place in TUM's order of what a column of this name holds; nothing: another thing.
 [[nodiscard]] inline std::optional<std::size_t> place_of(std::string_view column) {
   const std::string name = lower_case(std::string(column));
@@ -52,12 +54,22 @@ inline constexpr std::size_t kColumns = 8;  // stamp tx ty tz qx qy qz qw
   return names;
 }
 
+// Whether the names are those of three turns, whose order nobody tells.
+[[nodiscard]] inline bool name_euler_angles(std::string_view head) {
+  const std::vector<std::string> names = names_in(head);
+  return std::all_of(kEulerAngles.begin(), kEulerAngles.end(), [&names](std::string_view angle) {
+    return std::any_of(names.begin(), names.end(), [angle](const std::string& name) {
+      return lower_case(name).find(angle) != std::string::npos;
+    });
+  });
+}
+
 // How many empty cells end a row that commas separate: nothing stands behind its last commas.
 [[nodiscard]] inline std::size_t empty_at_end(std::string_view row) noexcept {
   std::size_t count = 0;
   for (std::size_t at = row.size(); at > 0; --at) {
     const char c = row[at - 1];
-    if (c == ',' || c == ';')
+    if (c == ',' || c == ';' || c == '|')
       ++count;
     else if (c != ' ' && c != '\t' && c != '\r')
       break;

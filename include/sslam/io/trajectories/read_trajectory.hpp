@@ -65,6 +65,18 @@ namespace trajectory_detail {
   return width;
 }
 
+// Rows of Python: [0.1, 1, 2, 3] or (0.1, 1, 2, 3).
+inline void blank_brackets(std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::size_t first = text.find_first_not_of(" \t", at);
+    for (std::size_t i = at; first < end && (text[first] == '[' || text[first] == '(') && i < end; ++i)
+      if (std::string_view("[]()").find(text[i]) != std::string_view::npos && i != first) text[i] = ' ';
+    if (first < end && (text[first] == '[' || text[first] == '(')) text[first] = ' ';
+    at = end + 1;
+  }
+}
+
 // What stands behind the numbers of a row: "# such a remark".
 inline void drop_remarks(std::vector<TextRow>& rows) {
   for (TextRow& row : rows) {
@@ -91,6 +103,11 @@ inline void drop_remarks(std::vector<TextRow>& rows) {
 [[nodiscard]] inline RowLayout layout_of(const std::vector<TextRow>& rows, std::size_t width,
                                          std::string_view head, const std::filesystem::path& path,
                                          Warnings& warnings) {
+  if (pose_columns_detail::name_euler_angles(head))
+    throw Error(path.string() +
+                ": has rotations as roll, pitch and yaw, in an order that nothing tells; expected "
+                "quaternions, in rows of " +
+                std::string(kPoseRows));
   if (width == 12 || width == 16) return RowLayout::kMatrix;
   if (width == 7 && path.extension() == ".traj") return RowLayout::kAxisAngle;
   if (width == 13 || std::any_of(rows.begin(), rows.end(), ends_as_matrix)) return RowLayout::kStampedMatrix;
@@ -154,6 +171,7 @@ inline void drop_remarks(std::vector<TextRow>& rows) {
   if (const std::string kind = file_kind(text); !kind.empty())
     throw Error(path.string() + ": " + kind + "; expected rows of poses in plain text");
   if (is_transforms_text(text)) return read_transforms_poses(path, warnings, std::move(times));
+  trajectory_detail::blank_brackets(text);
   text = with_decimal_points(with_seconds(std::move(text), path, warnings));
   std::vector<TextRow> rows = split_rows(text);
   if (!rows.empty() && is_header(rows.front())) rows.erase(rows.begin());

@@ -28,7 +28,7 @@ namespace detail {
 [[nodiscard]] inline std::string bare_row(const std::string& line) {
   const std::string row = without_blanks(line);
   if (row.empty() || row[0] == '#' || row[0] == ';' || row[0] == '%') return {};
-  return without_blanks(std::string_view(row).substr(0, row.find(" #")));
+  return without_blanks(std::string_view(row).substr(0, std::min(row.find(" #"), row.find(" ;"))));
 }
 
 // Whether each row assigns a value or begins a section, and one at least assigns.
@@ -90,6 +90,21 @@ namespace detail {
   return root;
 }
 
+// One row such as "fx=461.5, fy=460.25, ..." as a map in braces; empty: another text.
+[[nodiscard]] inline std::string braced_row(const std::string& text) {
+  std::string row = without_blanks(std::string_view(text).substr(0, text.find_last_not_of(" \t\n") + 1));
+  const auto count = [&row](char c) { return std::count(row.begin(), row.end(), c); };
+  constexpr std::ptrdiff_t kNumbers = 4;
+  const std::ptrdiff_t named = count('=') + count(':');
+  if (!row.starts_with("fx") || row.find('\n') != std::string::npos || named < kNumbers) return {};
+  const bool commas = count(',') + count(';') + 1 >= named;
+  for (char& c : row) {
+    if (c == '=') c = ':';
+    if (c == ';') c = ',';
+  }
+  return commas ? "{" + row + "}" : std::string();
+}
+
 // A table with one row of numbers below their names, such as "fx,fy,cx,cy", as a map. Empty: another text.
 [[nodiscard]] inline TextNode named_row(const std::string& text) {
   TextNode map;
@@ -102,7 +117,7 @@ namespace detail {
   std::vector<std::vector<std::string>> rows;
   for (std::string line; rows.size() < 3 && std::getline(lines, line);) {
     for (char& c : line)
-      if (c == ',' || c == ';' || c == '"' || (c == '#' && rows.empty())) c = ' ';
+      if (c == ',' || c == ';' || c == '"' || ((c == '#' || c == '%') && rows.empty())) c = ' ';
     if (std::vector<std::string> row = cells_of(line); !row.empty()) rows.push_back(std::move(row));
   }
   if (rows.size() != 2 || rows[0].size() != rows[1].size()) return map;

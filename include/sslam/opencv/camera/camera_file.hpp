@@ -104,6 +104,10 @@ inline void complete_wide(CameraFile& read) {
   const auto has = [text](std::string_view part) { return text.find(part) != std::string_view::npos; };
   if (has("# oST version"))
     return "is the text form (ost.txt) of ROS's calibrator; expected the ost.yaml beside it";
+  if ((has("PPX:") && has("Fx:")) || (has("p[") && has("f[") && has("Brown Conrady")))
+    return "is what RealSense's tools print; expected one row of text with fx fy cx cy (Fx Fy PPX PPY) of "
+           "the "
+           "stream";
   if (has("projection: [") && has("distortion: [") && has("+-"))
     return "is the report of Kalibr; expected the camchain.yaml beside it";
   if (has("fc = [") && has("cc = [") && has("kc = ["))
@@ -123,6 +127,8 @@ inline void complete_wide(CameraFile& read) {
     }
     if (const TextNode named = named_row(text); !named.keys.empty()) return read_camera_tree(named, source);
     if (auto rows = read_camera_rows(text, source)) return *rows;
+    if (const std::string row = braced_row(text); !row.empty())
+      return read_camera_tree(TextTree::parse(row, source), source);
     if (is_assigned(text)) return read_camera_tree(parse_assigned(text, source), source);
     return read_camera_tree(TextTree::parse(text, source), source);
   } catch (const Error& error) {

@@ -18,8 +18,8 @@
 namespace sslam {
 namespace detail {
 
-// Words, row after row; comments (#) and empty rows are left out, and what follows the first few. Programs
-// put commas or brackets around numbers.
+// Words, row after row; comments (#, %, //) and empty rows are left out, and what follows the first few.
+// Programs put commas or brackets around numbers, and NumPy the word array.
 using WordRows = std::vector<std::vector<std::string>>;
 
 [[nodiscard]] inline bool is_number(const std::string& word) {
@@ -36,10 +36,11 @@ using WordRows = std::vector<std::vector<std::string>>;
   std::istringstream lines(text);
   constexpr std::size_t kEnough = 6;  // a matrix has four
   for (std::string line; rows.size() < kEnough && std::getline(lines, line);) {
-    line.erase(std::min(line.find('#'), line.size()));
+    line.erase(std::min({line.find_first_of("#%"), line.find("//"), line.size()}));
     std::string bare = line;
+    if (const std::size_t array = bare.find("array("); array != std::string::npos) bare.erase(0, array + 5);
     for (char& c : bare)
-      if (std::string_view(",;[]").find(c) != std::string_view::npos) c = ' ';
+      if (std::string_view(",;[]()").find(c) != std::string_view::npos) c = ' ';
     std::vector<std::string> row = words_of(bare);
     if (!std::all_of(row.begin(), row.end(), is_number)) row = words_of(line);
     if (!row.empty()) rows.push_back(std::move(row));

@@ -84,7 +84,7 @@ template <std::size_t N>
   if (!keys.has_any(names))
     for (std::size_t i = 0; i < keys.map().keys.size(); ++i)
       if (keys.map().items[i].kind != TextNode::Kind::kScalar &&
-          plain_word(keys.map().keys[i]).starts_with("dist"))
+          plain_word(keys.map().keys[i]).find("dist") != std::string::npos)
         keys.fail(keys.map().items[i], keys.map().keys[i],
                   "is not known here; expected " + std::string(names.front()));
   const std::vector<double> values = keys.numbers(names, "distortion coefficients");

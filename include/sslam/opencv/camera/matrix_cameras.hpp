@@ -32,12 +32,32 @@ inline void set_matrix(const CameraKeys& keys, std::string_view key, const std::
               " is no camera matrix; expected fx 0 cx 0 fy cy 0 0 1, with fx and fy greater than 0");
 }
 
+// ROS: the images are a region of the sensor, whose size and camera the other numbers are.
+inline void take_region(const CameraKeys& keys, CameraFile& file) {
+  const TextNode* const map = keys.map().find("roi");
+  if (map == nullptr || map->kind != TextNode::Kind::kMap) return;
+  const CameraKeys roi(*map, keys.file(), keys.where() + "roi.");
+  const auto pixels = [&roi](std::string_view key) {
+    return roi.optional({key}, 0, "a whole number of pixels");
+  };
+  const double width = pixels("width"), height = pixels("height");
+  if (!(width > 0) || !(height > 0) || (width == file.camera.width && height == file.camera.height)) return;
+  file.camera.width = roi.whole_pixels(*map, "width", width);
+  file.camera.height = roi.whole_pixels(*map, "height", height);
+  file.camera.pinhole.cx -= pixels("x_offset");
+  file.camera.pinhole.cy -= pixels("y_offset");
+  file.notes.push_back(keys.file() + ": the camera is that of its region of interest (roi), " +
+                       std::to_string(file.camera.width) + "x" + std::to_string(file.camera.height));
+}
+
 // OpenCV's FileStorage and the samples that write it; ROS camera_info as a file or as a message; Open3D.
 inline CameraFile read_matrix_camera(const CameraKeys& keys, const CameraKeys::Names& matrix) {
   CameraFile file;
   set_matrix(keys, matrix.front(), keys.numbers(matrix, "a camera matrix"), file);
   file.camera.width = keys.optional_pixels({"image_width", "image_Width", "width", "w"});
   file.camera.height = keys.optional_pixels({"image_height", "image_Height", "height", "h"});
+  set_size_pair(keys, file);
+  take_region(keys, file);
   std::string model = keys.text({"distortion_model", "model"});
   if (keys.optional({"fisheye_model", "Fisheye"}, 0, "0 or 1") != 0) model = "fisheye";
   std::vector<double> values =

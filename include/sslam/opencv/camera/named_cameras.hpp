@@ -36,6 +36,27 @@ inline void note_unknown(const CameraKeys& keys, std::string_view prefix,
     file.notes.push_back(keys.file() + ": keys that are not known were left out: " + unknown);
 }
 
+// "WIDTH, HEIGHT" of a list.
+inline void set_size(const CameraKeys& keys, std::string_view key, CameraFile& file) {
+  const std::vector<double> size = keys.numbers({key}, "the width and the height in pixels");
+  if (size.empty()) return;
+  if (size.size() != 2)
+    keys.fail(keys.where() + std::string(key) + ": expected two numbers, the width and the height");
+  const TextNode& node = *keys.map().find(key);
+  file.camera.width = keys.whole_pixels(node, key, size[0]);
+  file.camera.height = keys.whole_pixels(node, key, size[1]);
+}
+
+// The same under any of the names that it has beside a matrix or named numbers, where width and height have
+// no keys of their own.
+inline void set_size_pair(const CameraKeys& keys, CameraFile& file) {
+  for (const std::string_view key :
+       {"resolution", "image_size", "imageSize", "img_size", "image_dimension", "imageResolution"})
+    if (const TextNode* const list = keys.map().find(key);
+        file.camera.width == 0 && list != nullptr && list->kind == TextNode::Kind::kList)
+      set_size(keys, key, file);
+}
+
 // fx and so on, each under `prefix`, and the coefficients by their names. Sets the size first: lenses are
 // fitted within the image.
 inline void read_named_pinhole(const CameraKeys& keys, const std::string& prefix, const std::string& model,
@@ -202,6 +223,7 @@ inline CameraFile read_plain_names(const CameraKeys& keys) {
   const std::vector<double> values = lens_list(keys);
   file.camera.width = keys.optional_pixels({"width", "w", "image_width", "W"});
   file.camera.height = keys.optional_pixels({"height", "h", "image_height", "H"});
+  set_size_pair(keys, file);
   std::string model = keys.text({"model", "distortion_model", "camera_model", "type"});
   read_named_pinhole(keys, "", model.empty() || !values.empty() ? "pinhole" : model, file);
   if (!values.empty()) set_lens(keys, model.empty() ? "plumb_bob" : model, values, file);

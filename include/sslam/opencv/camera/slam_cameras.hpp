@@ -78,29 +78,23 @@ inline CameraFile read_vins(const CameraKeys& keys) {
             keys.text({"cam0_calib"}) + ", beside it");
 }
 
-// "WIDTH, HEIGHT" of a list.
-inline void set_size(const CameraKeys& keys, std::string_view key, CameraFile& file) {
-  const std::vector<double> size = keys.numbers({key}, "the width and the height in pixels");
-  if (size.empty()) return;
-  if (size.size() != 2)
-    keys.fail(keys.where() + std::string(key) + ": expected two numbers, the width and the height");
-  const TextNode& node = *keys.map().find(key);
-  file.camera.width = keys.whole_pixels(node, key, size[0]);
-  file.camera.height = keys.whole_pixels(node, key, size[1]);
-}
-
-inline CameraFile read_okvis(const CameraKeys& top) {
-  const TextNode& cameras = *top.map().find("cameras");
-  const CameraKeys keys(cameras.items.front(), top.file(), "cameras[0].");
+// focal_length and principal_point, two numbers each.
+inline CameraFile read_pairs(const CameraKeys& keys) {
   CameraFile file;
   const std::vector<double> focal = keys.numbers({"focal_length"}, kFocal);
   const std::vector<double> centre = keys.numbers({"principal_point"}, kCentre);
   if (focal.size() != 2 || centre.size() != 2 || !(focal[0] > 0) || !(focal[1] > 0))
     keys.fail(keys.where() + "focal_length and principal_point: expected two numbers each, in pixels");
   file.camera.pinhole = {focal[0], focal[1], centre[0], centre[1]};
-  set_size(keys, "image_dimension", file);
-  const std::string model = keys.text({"distortion_type"});
+  set_size_pair(keys, file);
+  const std::string model = keys.text({"distortion_type", "distortion_model"});
   set_lens(keys, model == "radialtangential8" ? "rational" : model, lens_list(keys), file);
+  return file;
+}
+
+inline CameraFile read_okvis(const CameraKeys& top) {
+  const TextNode& cameras = *top.map().find("cameras");
+  CameraFile file = read_pairs(CameraKeys(cameras.items.front(), top.file(), "cameras[0]."));
   note_first_of(top, cameras.items.size(), file);
   return file;
 }
