@@ -57,7 +57,8 @@ inline void check_keyframe(const Map<double>& map, std::size_t k, int axes) {
   for (const LandmarkId id : kf.point_landmarks) demand(id == kNone || inside(id, map.points.size()));
   for (const LandmarkId id : kf.line_landmarks) demand(id == kNone || inside(id, map.lines.size()));
   for (const Neighbour& n : kf.neighbours)
-    demand(inside(n.keyframe, map.keyframes.size()) && map.keyframes[map.index(n.keyframe)].alive());
+    demand(n.keyframe != kf.id && inside(n.keyframe, map.keyframes.size()) &&
+           map.keyframes[map.index(n.keyframe)].alive());
 }
 
 // features(keyframe): how many the landmarks' observations can choose from.
