@@ -198,6 +198,15 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
   };
   refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].keyframe = -2; });
   refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].feature = 100000; });
+  // An observation of which the keyframe knows nothing, and one of which the landmark does not; the same
+  // twice.
+  refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].feature += 1; });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations).pop_back(); });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations).push_back(seen(m).observations[0]); });
+  refused([](auto& m) {
+    auto& named = MapDoor::open(m.keyframes[3].line_landmarks);
+    *std::find_if(named.begin(), named.end(), [](LandmarkId id) { return id != kNone; }) = kNone;
+  });
   refused([&](auto& m) { seen(m).position.x() = std::nan(""); });
   refused([](auto& m) { m.keyframes[3].parent = 4; });  // a ring: 4 went to 3
   refused([](auto& m) { m.keyframes[0].parent = 1; });
