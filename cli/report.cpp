@@ -16,6 +16,7 @@
 #include "cli/report/report_data.hpp"
 #include "cli/report/report_page.hpp"
 #include "cli/results/run_folder.hpp"
+#include "cli/shell/json_text.hpp"
 #include "cli/shell/messages.hpp"
 #include "sslam/io/files/output_file.hpp"
 
@@ -24,7 +25,7 @@ namespace {
 
 // JSON that may stand inside a script element: no name in it can end the element.
 void append_script_json(const nlohmann::ordered_json& data, std::string& html) {
-  const std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const std::string text = json_text(data);
   for (const char c : text) {
     if (c == '<')
       html += "\\u003c";

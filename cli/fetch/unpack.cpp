@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -65,13 +66,24 @@ fs::path place_of(const fs::path& file, const fs::path& entry, const std::string
   return rest;
 }
 
-void write_entry(const fs::path& file, archive* reader, const fs::path& target) {
+// `room`: bytes that all files of the archive together may still take.
+void write_entry(const fs::path& file, archive* reader, const fs::path& target, std::uintmax_t& room) {
   std::array<char, 1 << 16> buffer;
-  fs::create_directories(target.parent_path());
+  std::error_code error;
+  fs::create_directories(target.parent_path(), error);
+  if (error == std::errc::not_a_directory || error == std::errc::file_exists || fs::is_directory(target))
+    throw BadArchive(file.string() + ": holds '" + target.filename().string() +
+                     "' both as a file and as a folder");
+  if (error) throw Error(target.parent_path().string() + ": cannot write: " + error.message());
   io::OutputFile out(target);
   la_ssize_t count = 0;
-  while ((count = archive_read_data(reader, buffer.data(), buffer.size())) > 0)
+  while ((count = archive_read_data(reader, buffer.data(), buffer.size())) > 0) {
+    if (static_cast<std::uintmax_t>(count) > room)
+      throw BadArchive(file.string() +
+                       ": unpacks to more than a hundred times its size; expected images and lists");
+    room -= static_cast<std::uintmax_t>(count);
     out.stream().write(buffer.data(), count);
+  }
   if (count < 0) fail(file, reader);
   out.commit();
 }
@@ -85,14 +97,19 @@ void unpack(const fs::path& file, const fs::path& folder, const std::string& nam
   if (archive_read_open(reader.get(), &gzip, nullptr, next_block, nullptr) != ARCHIVE_OK)
     fail(file, reader.get());
   const Interrupt interrupt;
+  constexpr std::uintmax_t kLeast = 1U << 20U,
+                           kMostTimes = 100;  // images hardly pack, lists by a factor of ten
+  std::uintmax_t room = std::max(kLeast, fs::file_size(file)) * kMostTimes;
   archive_entry* entry = nullptr;
   int code = ARCHIVE_OK;
   while ((code = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK || code == ARCHIVE_WARN) {
     if (Interrupt::asked()) throw Stop{ExitCode::kInterrupted};
-    const fs::path rest = place_of(file, archive_entry_pathname(entry), name);
+    const char* const path = archive_entry_pathname(entry);
+    if (path == nullptr) throw BadArchive(file.string() + ": holds a file whose name cannot be read");
+    const fs::path rest = place_of(file, path, name);
     // No sequence has links, and a link could lead elsewhere.
     if (archive_entry_filetype(entry) == AE_IFREG && !rest.empty())
-      write_entry(file, reader.get(), folder / rest);
+      write_entry(file, reader.get(), folder / rest, room);
   }
   if (code != ARCHIVE_EOF) fail(file, reader.get());
   // The checksum stands at the very end, behind the tar's own.

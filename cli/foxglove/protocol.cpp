@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/shell/json_text.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/io/bags/definitions.hpp"
 #include "sslam/io/maps/byte_archive.hpp"
@@ -50,13 +51,12 @@ std::string advertisement(std::span<const StreamChannel> channels) {
                     {"schemaName", full_type(channel.topic)},
                     {"schema", io::full_definition(channel.topic.type)},
                     {"schemaEncoding", "ros2msg"}});
-  return Json{{"op", "advertise"}, {"channels", std::move(list)}}.dump();
+  return json_text({{"op", "advertise"}, {"channels", std::move(list)}});
 }
 
 std::string error_status(const std::string& message) {
   constexpr int kError = 2;
-  return Json{{"op", "status"}, {"level", kError}, {"message", message}}.dump(-1, ' ', false,
-                                                                              Json::error_handler_t::replace);
+  return json_text({{"op", "status"}, {"level", kError}, {"message", message}});
 }
 
 std::string data_head(std::uint32_t subscription, std::int64_t nanoseconds) {

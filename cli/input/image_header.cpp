@@ -151,7 +151,8 @@ void read_png(Bytes bytes, ImageHeader& header) {
 
 void read_webp(Bytes bytes, ImageHeader& header) {
   const ByteReader reader(bytes, false);
-  const std::size_t end = std::size_t{reader.number(4, 4)} + 8;
+  constexpr std::size_t kShortest = 20;  // the head, and that of one chunk
+  const std::size_t end = std::max(std::size_t{reader.number(4, 4)} + 8, kShortest);
   header.complete = bytes.size() >= end;
   if (header.complete) header.end = end;
   if (says(bytes, 12, "VP8X")) {

@@ -14,6 +14,7 @@ extern "C" {
 #include "cli/input/image_limit.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/core/types.hpp"
+#include "sslam/io/files/video_content.hpp"
 
 namespace sslam::cli {
 
@@ -32,6 +33,9 @@ struct VideoContainer {
 namespace {
 
 ffmpeg::VideoContainer open_container(const std::filesystem::path& file) {
+  if (io::starts_as_playlist(io::first_bytes(file)))
+    throw Error(file.string() +
+                ": is a list of videos, not one; `ffmpeg -i LIST -c copy OUT.mp4` makes one of them");
   ffmpeg::silence();
   ffmpeg::VideoContainer opened;
   AVFormatContext* format = nullptr;

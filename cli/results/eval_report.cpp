@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/shell/json_text.hpp"
 #include "sslam/core/types.hpp"
 #include "sslam/io/files/output_file.hpp"
 
@@ -98,7 +99,7 @@ nlohmann::ordered_json evaluation_json(const io::Evaluation& e) {
 }
 
 void write_json(const std::string& path, const nlohmann::ordered_json& json) {
-  io::write_text(path, json.dump(2) + '\n');
+  io::write_text(path, json_text(json, 2) + '\n');
 }
 
 }  // namespace sslam::cli

@@ -92,7 +92,13 @@ inline NerfstudioCounts write_nerfstudio(const RunFolder& run, const std::filesy
     json["frames"].push_back(
         {{"file_path", path}, {"transform_matrix", detail::matrix_of(keyframe.cam_from_world.inverse())}});
   }
-  io::write_text(stage / "transforms.json", json.dump(1) + "\n");
+  try {
+    io::write_text(stage / "transforms.json", json.dump(1) + "\n");
+  } catch (const detail::Json::exception&) {  // with other names, the images would not be found
+    throw Error(
+        "transforms.json: a name of an image is not UTF-8, as JSON asks for; rename it, or use another "
+        "--format");
+  }
   std::vector<io::MapPoint> points;
   for (std::size_t i = 0; i < run.map.points.size(); ++i)
     if (run.map.points[i].alive)

@@ -8,6 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/shell/json_text.hpp"
+
 namespace sslam::cli {
 namespace {
 
@@ -76,9 +78,7 @@ void print_notes(std::span<const std::string> notes) {
 }
 
 void print_json(const nlohmann::ordered_json& object) {
-  // File names need not be UTF-8.
-  const std::string line = object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::fprintf(message_stream(), "%s\n", line.c_str());
+  std::fprintf(message_stream(), "%s\n", json_text(object).c_str());
 }
 
 std::vector<WarningKind> kinds_of(std::span<const std::string> warnings) {

@@ -9,6 +9,7 @@
 #include "cli/report/report_data.hpp"
 #include "cli/results/frame_table.hpp"
 #include "cli/results/map_figures.hpp"
+#include "cli/shell/json_text.hpp"
 #include "cli/view/map_copy.hpp"
 #include "sslam/core/move_to_end.hpp"
 
@@ -99,8 +100,7 @@ SharedText LiveRun::news(std::uint64_t version) {
   if (version == version_) return nullptr;
   if (news_ == nullptr) {
     const nlohmann::ordered_json fresh = {{"over", false}, {"data", data()}, {"view", base64(view_)}};
-    news_ = std::make_shared<const std::string>(
-        fresh.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    news_ = std::make_shared<const std::string>(json_text(fresh));
   }
   return news_;
 }

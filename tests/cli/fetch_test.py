@@ -24,13 +24,18 @@ def sslam(*arguments):
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
-    """Serves server.files, from a byte on where asked to; server.cut ends the first answer after so many bytes."""
+    """Serves server.files, from a byte on where asked to; server.cut ends the first answer after so many bytes; with
+    server.redirects, each answer leads on to another place."""
 
     def do_GET(self):
         server = self.server
         wanted = self.headers.get("Range")
         server.ranges.append(wanted)
         data = server.files.get(self.path.lstrip("/"))
+        if server.redirects:
+            self.send_response(302)
+            self.send_header("Location", self.path + "x")
+            return self.end_headers()
         if data is None:
             return self.send_error(404)
         start = int(re.match(r"bytes=(\d+)-", wanted).group(1)) if wanted and server.resumes else 0
@@ -73,6 +78,7 @@ class Fetch(unittest.TestCase):
     def setUp(self):
         self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
         self.server.files, self.server.ranges, self.server.cut, self.server.resumes = {}, [], 0, True
+        self.server.redirects = False
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
         self.out = self.folder / self.id().split(".")[-1]
         self.files = self.server.files
@@ -155,6 +161,10 @@ class Fetch(unittest.TestCase):
     def test_what_is_not_there(self):
         self.assertRegex(self.fetch("s-not-far", code=1).stderr, "404.*check the network and the address")
         self.assertIn("'lr-kt9' is not a sequence that can be fetched; known: lr-kt1, ", self.fetch("lr-kt9", code=1).stderr)
+
+    def test_redirects_without_an_end(self):
+        self.server.redirects = True
+        self.assertIn("redirects", self.fetch("s-not-far", code=1).stderr)
 
     def test_a_server_that_does_not_answer(self):
         done = sslam("fetch", "s-not-far", "--mirror", "http://127.0.0.1:1", "--out", self.out)

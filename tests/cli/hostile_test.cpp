@@ -71,6 +71,18 @@ TEST_CASE("a name with line breaks gives a message of one line") {
   CHECK(outcome.text.find("no?such?[1mfolder: no such folder") != std::string::npos);
 }
 
+TEST_CASE("a name that is not UTF-8 costs no results") {
+  const ScratchFolder scratch;
+  std::string poses;
+  for (int i = 0; i < 5; ++i) poses += std::to_string(i) + " " + std::to_string(i * i) + " 1 2 0 0 0 1\n";
+  const std::string file = scratch.write("caf\xe9.txt", poses).string();
+  const fs::path json = scratch.path() / "eval.json";
+  const Outcome outcome = run_program("eval " + file + " " + file + " --json " + json.string());
+  INFO(outcome.text);
+  REQUIRE(outcome.code == 0);
+  CHECK(nlohmann::json::parse(text_of(json)).dump().find("caf\xef\xbf\xbd.txt") != std::string::npos);
+}
+
 TEST_CASE("two runs into one folder: the second is told") {
   const RoomCopy copy;
   fs::create_directories(copy.out);

@@ -77,6 +77,7 @@ TEST_CASE("a run leaves a report, and its files give the same report again") {
   CHECK(data["point_colours"]["base64"].get<std::string>().size() > 1000);
   const std::string colours = text_of(room.run / "colours.bin");
   CHECK(first.find("</script><b>") == std::string::npos);
+  CHECK(first.find("script-src 'sha256-") != std::string::npos);  // nothing else runs in it
   const Outcome again = room.report();
   INFO(again.text);
   CHECK(again.code == 0);

@@ -30,14 +30,28 @@ inline const std::filesystem::path& input_file() {
 
 // Anything but an Error of one line ends the fuzzer.
 template <class Read>
-int read_as_file(const std::uint8_t* data, std::size_t size, Read read) {
-  std::ofstream(input_file(), std::ios::binary)
-      << std::string_view(reinterpret_cast<const char*>(data), size);
+void expect_error(Read read) {
   try {
-    read(input_file());
+    read();
   } catch (const Error& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
   }
+}
+
+// The same for readers of the program, which prints any message in one line.
+template <class Read>
+void expect_message(Read read) {
+  try {
+    read();
+  } catch (const Error&) {
+  }
+}
+
+template <class Read>
+int read_as_file(const std::uint8_t* data, std::size_t size, Read read) {
+  std::ofstream(input_file(), std::ios::binary)
+      << std::string_view(reinterpret_cast<const char*>(data), size);
+  expect_error([&] { read(input_file()); });
   return 0;
 }
 

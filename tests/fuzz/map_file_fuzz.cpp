@@ -2,6 +2,7 @@
 // The fields of a map file. A checksum stands before them in the file; here they come without, since no
 // fuzzer guesses it. What is taken must be of use: it is written and read again.
 #include "fuzz/fuzz_input.hpp"
+#include "fuzz/worked_map.hpp"
 #include "sslam/io/maps/map_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -23,5 +24,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Map<double> same;
   io::MapFields(again).walk(same);
   io::check_map(same);
+  fuzzing::take_apart(map);
   return 0;
 }

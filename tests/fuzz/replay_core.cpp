@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fuzz targets of the kernels, and of the readers that need no other library.
-#include <cstring>
-
+// Fuzz targets of the readers that need no other library.
 #include "fuzz/replay.hpp"
-#include "sslam/core/random.hpp"
 #include "support/catch.hpp"
 #include "support/map_scene.hpp"
 #include "support/scratch_folder.hpp"
@@ -20,17 +17,15 @@
 #include "fuzz/whole_map_fuzz.cpp"
 #undef LLVMFuzzerCustomMutator
 #undef LLVMFuzzerTestOneInput
-#define LLVMFuzzerTestOneInput fuzz_manhattan
-#include "fuzz/manhattan_fuzz.cpp"
+#define LLVMFuzzerTestOneInput fuzz_truth
+#define LLVMFuzzerCustomMutator seed_of_truth
+#include "fuzz/truth_fuzz.cpp"
+#undef LLVMFuzzerCustomMutator
 #undef LLVMFuzzerTestOneInput
-#define LLVMFuzzerTestOneInput fuzz_pose
-#include "fuzz/pose_fuzz.cpp"
-#undef LLVMFuzzerTestOneInput
-#define LLVMFuzzerTestOneInput fuzz_triangulation
-#include "fuzz/triangulation_fuzz.cpp"
-#undef LLVMFuzzerTestOneInput
-#define LLVMFuzzerTestOneInput fuzz_two_view
-#include "fuzz/two_view_fuzz.cpp"
+#define LLVMFuzzerTestOneInput fuzz_layout
+#define LLVMFuzzerCustomMutator seed_of_layout
+#include "fuzz/layout_fuzz.cpp"
+#undef LLVMFuzzerCustomMutator
 #undef LLVMFuzzerTestOneInput
 
 namespace {
@@ -45,15 +40,6 @@ Map<double> small_map() {
   std::vector<SE3<double>> path;
   for (int k = 0; k < 3; ++k) path.push_back(testing::look({0.3 * k, 0, -2}, 0.05 * k, 0));
   return testing::MapScene(options, path).make_map();
-}
-
-// Spoilings of a scene, as spoilt_numbers.hpp reads them: a number at a place.
-std::string at(std::size_t place, double number) {
-  const auto low = static_cast<std::uint16_t>(place);
-  std::string bytes(1 + sizeof low + sizeof number, 'A');
-  std::memcpy(bytes.data() + 1, &low, sizeof low);
-  std::memcpy(bytes.data() + 1 + sizeof low, &number, sizeof number);
-  return bytes;
 }
 
 }  // namespace
@@ -81,27 +67,14 @@ TEST_CASE("map files that are spoilt") {
   const testing::ScratchFolder scratch;
   io::save_map(scratch.path() / "map", small_map());
   const std::string file = testing::text_of(scratch.path() / "map");
-  replay(fuzz_whole_map, {file, file.substr(0, file.size() / 2), std::string(kHead, '\0')}, 2000,
-         mutate_whole_map);
+  replay(fuzz_whole_map, {file, file.substr(0, file.size() / 2), std::string(fuzzing::kSealedHead, '\0')},
+         2000, mutate_whole_map);
 }
 
-TEST_CASE("a Manhattan rotation from spoilt votes") {
-  replay(fuzz_manhattan, fuzzing::random_bytes(50, 200), 2000);
+TEST_CASE("files of poses that are spoilt") {
+  replay(fuzz_truth, truth_fuzz::seeds(), 3000);
 }
 
-TEST_CASE("a camera's pose from spoilt landmarks") {
-  replay(fuzz_pose, fuzzing::random_bytes(50, 200), 2000);
-}
-
-TEST_CASE("points and lines from spoilt views") {
-  replay(fuzz_triangulation, fuzzing::random_bytes(50, 200), 4000);
-}
-
-TEST_CASE("a relative pose from spoilt matches") {
-  std::vector<std::string> inputs = fuzzing::random_bytes(50, 200);
-  // Found: errors so large that the information's inverse overflows.
-  std::string vague{1, 8};
-  for (std::size_t match = 0; match < 8; ++match) vague += at(7 * match + 6, 1e153);
-  inputs.push_back(vague);
-  replay(fuzz_two_view, inputs, 1500);
+TEST_CASE("folders of datasets that are spoilt") {
+  replay(fuzz_layout, layout_fuzz::seeds(), 1500);
 }

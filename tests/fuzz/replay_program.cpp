@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fuzz targets of the program's own readers.
 #include "fuzz/replay.hpp"
+#include "io/errors.hpp"
 #include "support/catch.hpp"
 
 #define LLVMFuzzerTestOneInput fuzz_camera_file
@@ -12,6 +13,21 @@
 #define LLVMFuzzerTestOneInput fuzz_bag
 #define LLVMFuzzerCustomMutator seed_of_bag
 #include "fuzz/bag_fuzz.cpp"
+#undef LLVMFuzzerCustomMutator
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_manifest
+#define LLVMFuzzerCustomMutator seed_of_manifest
+#include "fuzz/manifest_fuzz.cpp"
+#undef LLVMFuzzerCustomMutator
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_stream
+#define LLVMFuzzerCustomMutator seed_of_stream
+#include "fuzz/stream_fuzz.cpp"
+#undef LLVMFuzzerCustomMutator
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_video
+#define LLVMFuzzerCustomMutator seed_of_video
+#include "fuzz/video_fuzz.cpp"
 #undef LLVMFuzzerCustomMutator
 #undef LLVMFuzzerTestOneInput
 #define LLVMFuzzerTestOneInput fuzz_toml
@@ -84,4 +100,29 @@ TEST_CASE("bags that are spoilt") {
                           connection_1(2, "/k\n", "sensor_msgs/Image") + message_1(2, image_1(1));
   inputs.push_back('\0' + bag_1(two).substr(sslam::io::kRos1Magic.size()));
   replay(fuzz_bag, inputs, 3000);
+}
+
+TEST_CASE("manifests of networks that are spoilt") {
+  std::vector<std::string> inputs = manifest_fuzz::seeds();
+  std::string endless = inputs.front();  // found by hand: a number that is none
+  inputs.push_back(endless.replace(endless.find("123.7"), 5, "1e999"));
+  replay(fuzz_manifest, inputs, 2000);
+}
+
+TEST_CASE("streams of images that are spoilt") {
+  replay(fuzz_stream, stream_fuzz::seeds(), 5000);
+}
+
+TEST_CASE("videos that are spoilt") {
+  replay(fuzz_video, video_fuzz::seeds(), 100);
+}
+
+TEST_CASE("a list of videos is refused where it has the name of one") {
+  for (const std::string& list : video_fuzz::seeds()) {
+    if (!sslam::io::starts_as_playlist(list)) continue;
+    const sslam::testing::ScratchFolder scratch;
+    const std::filesystem::path file = scratch.write("a.mp4", list);
+    const std::string why = sslam::testing::error_of([&] { const sslam::cli::VideoReader reader(file); });
+    CHECK(sslam::testing::contains(why, "a.mp4: is a list of videos, not one"));
+  }
 }

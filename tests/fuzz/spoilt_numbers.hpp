@@ -74,6 +74,12 @@ inline void spoil(std::span<double> numbers, std::size_t row, Bytes& bytes) {
   }
 }
 
+// Of vectors: NaN is the same as NaN.
+template <class Vector>
+[[nodiscard]] bool same_bits(const Vector& a, const Vector& b) {
+  return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(a[0])) == 0;
+}
+
 inline void demand(bool held) {
   if (!held) std::abort();
 }

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/io/files/text.hpp"
 
+#include <sys/stat.h>
+
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <fstream>
 #include <limits>
+#include <thread>
 
 #include "io/errors.hpp"
 #include "sslam/io/files/files.hpp"
@@ -86,4 +92,25 @@ TEST_CASE("A file without an end is refused") {
   const auto file = scratch.write("a.txt", std::string(100'000, 'a'));
   CHECK(io::read_text(file, 100'000).size() == 100'000);
   CHECK_THROWS_AS(io::read_text(file, 99'999), Error);
+}
+
+TEST_CASE("A named pipe is read to its end, and refused where nobody writes") {
+  using namespace std::chrono_literals;
+  const testing::ScratchFolder scratch;
+  const std::filesystem::path pipe = scratch.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const std::string why = testing::error_of([&] { (void)io::read_pipe(pipe, 100, 20ms); });
+  CHECK(testing::is_one_line(why));
+  CHECK(testing::contains(why, "pipe: is a named pipe, and nothing has come through it"));
+  const std::string text(200'000, 'x');  // more than a pipe holds
+  const auto give = [&] { std::ofstream(pipe) << text; };
+  std::thread writer(give);
+  CHECK(io::read_text(pipe) == text);
+  writer.join();
+  const auto before = std::signal(SIGPIPE, SIG_IGN);  // of the writer, once nobody reads
+  writer = std::thread(give);
+  CHECK(testing::contains(testing::error_of([&] { (void)io::read_pipe(pipe, 10, 10s); }),
+                          "is longer than 10 bytes"));
+  writer.join();
+  std::signal(SIGPIPE, before);
 }

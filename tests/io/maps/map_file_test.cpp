@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/io/maps/map_file.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <string>
+#include <thread>
 #include <type_traits>
 
 #include "io/errors.hpp"
@@ -194,6 +198,15 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
   };
   refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].keyframe = -2; });
   refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].feature = 100000; });
+  // An observation of which the keyframe knows nothing, and one of which the landmark does not; the same
+  // twice.
+  refused([&](auto& m) { MapDoor::open(seen(m).observations)[0].feature += 1; });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations).pop_back(); });
+  refused([&](auto& m) { MapDoor::open(seen(m).observations).push_back(seen(m).observations[0]); });
+  refused([](auto& m) {
+    auto& named = MapDoor::open(m.keyframes[3].line_landmarks);
+    *std::find_if(named.begin(), named.end(), [](LandmarkId id) { return id != kNone; }) = kNone;
+  });
   refused([&](auto& m) { seen(m).position.x() = std::nan(""); });
   refused([](auto& m) { m.keyframes[3].parent = 4; });  // a ring: 4 went to 3
   refused([](auto& m) { m.keyframes[0].parent = 1; });
@@ -206,10 +219,21 @@ TEST_CASE("A map that contradicts itself is refused however sound its file") {
   refused([](auto& m) { m.lines[0].line.direction.setZero(); });
   refused([](auto& m) { m.lines[0].first_keyframe = 9; });
   refused([](auto& m) { m.keyframes[3].neighbours.at(0).keyframe = 4; });  // which is gone
+  refused([](auto& m) { m.keyframes[3].neighbours.at(0).keyframe = 3; });
   refused([](auto& m) { m = {}; });
 }
 
 TEST_CASE("A map file without an end is refused at its first bytes") {
   CHECK(sslam::testing::error_of([] { (void)sslam::io::load_map("/dev/zero"); }).find("is no map") !=
         std::string::npos);
+}
+
+TEST_CASE("A map is read from a pipe as from its file") {
+  const ScratchFolder folder;
+  const auto file = folder.path() / "a.sslam", pipe = folder.path() / "pipe";
+  io::save_map(file, room_map());
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << text_of(file); });
+  CHECK(io::load_map(pipe).points.size() == room_map().points.size());
+  writer.join();
 }

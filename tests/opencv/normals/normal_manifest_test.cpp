@@ -58,6 +58,7 @@ TEST_CASE("a wrong field of a manifest is named", "[normals]") {
       {{{"\"width\": 64", "\"width\": \"wide\""}}, "input.width"},
       {{{"\"height\": 48", "\"height\": 0"}}, "input.height"},
       {{{"\"rgb\"", "\"cmyk\""}}, "input.channels"},
+      {{{"127.5", "1e999"}}, "input.mean: holds a number beyond 1e9"},
       {{{"\"mean\"", "\"means\""}}, "input.means"},
       {{{"127.5,", ""}}, "input.mean"},
       {{{"\"normals\"", "\"heights\""}}, "output.kind"},

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sslam/core/error.hpp"
+#include "sslam/io/files/pipe_text.hpp"
 
 namespace sslam::io {
 
@@ -40,6 +41,7 @@ inline constexpr std::size_t kLongestText = std::size_t{1} << 30;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw Error(path.string() + ": is a folder, expected a file");
+  if (is_pipe(path)) return read_pipe(path, most);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string() + ": cannot open: " + std::strerror(errno != 0 ? errno : ENOENT));

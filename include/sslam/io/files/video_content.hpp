@@ -48,15 +48,27 @@ namespace sslam::io {
   return stands(0, "G"sv) && stands(kPacket, "G"sv) && stands(2 * kPacket, "G"sv);
 }
 
-// By its name or by its content, whatever else the name says.
-[[nodiscard]] inline bool is_video_file(const std::filesystem::path& file) {
-  if (is_video_name(file)) return true;
+// A list of other files, such as those of HLS, DASH and FFmpeg: whoever follows it waits for files that it
+// promises to name later.
+[[nodiscard]] inline bool starts_as_playlist(std::string_view bytes) {
+  return bytes.starts_with("#EXTM3U") || bytes.starts_with("ffconcat version") ||
+         bytes.find("<MPD") != std::string_view::npos;
+}
+
+// The first bytes of a file, enough to tell what it is.
+[[nodiscard]] inline std::string first_bytes(const std::filesystem::path& file) {
   constexpr std::size_t kEnough = 512;
   std::string bytes(kEnough, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(bytes.data(), kEnough);
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return starts_as_video(bytes);
+  return bytes;
+}
+
+// By its name or by its content, whatever else the name says.
+[[nodiscard]] inline bool is_video_file(const std::filesystem::path& file) {
+  if (is_video_name(file)) return true;
+  return starts_as_video(first_bytes(file));
 }
 
 }  // namespace sslam::io

@@ -2,6 +2,7 @@
 // Whether a map that came from outside holds together.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -57,7 +58,8 @@ inline void check_keyframe(const Map<double>& map, std::size_t k, int axes) {
   for (const LandmarkId id : kf.point_landmarks) demand(id == kNone || inside(id, map.points.size()));
   for (const LandmarkId id : kf.line_landmarks) demand(id == kNone || inside(id, map.lines.size()));
   for (const Neighbour& n : kf.neighbours)
-    demand(inside(n.keyframe, map.keyframes.size()) && map.keyframes[map.index(n.keyframe)].alive());
+    demand(n.keyframe != kf.id && inside(n.keyframe, map.keyframes.size()) &&
+           map.keyframes[map.index(n.keyframe)].alive());
 }
 
 // features(keyframe): how many the landmarks' observations can choose from.
@@ -74,6 +76,29 @@ void check_landmarks(const Map<double>& map, const Landmarks& landmarks, Feature
   }
 }
 
+// An observation stands twice: the landmark names the keyframe's feature, and the feature the landmark.
+// seen(keyframe): the landmarks of its features.
+template <class Landmarks, class Seen>
+void check_links(const Map<double>& map, const Landmarks& landmarks, Seen seen) {
+  std::size_t observations = 0, features = 0;
+  for (std::size_t id = 0; id < landmarks.size(); ++id)
+    for (const Observation& o : landmarks[id].observations) {
+      const Keyframe<double>& kf = map.keyframes[map.index(o.keyframe)];
+      demand(kf.alive() && seen(kf)[map.index(o.feature)] == static_cast<LandmarkId>(id));
+      ++observations;
+    }
+  for (const Keyframe<double>& kf : map.keyframes)
+    for (std::size_t i = 0; i < seen(kf).size(); ++i) {
+      if (seen(kf)[i] == kNone) continue;
+      const auto& named = landmarks[map.index(seen(kf)[i])].observations;
+      demand(std::any_of(named.begin(), named.end(), [&](const Observation& o) {
+        return o.keyframe == kf.id && map.index(o.feature) == i;
+      }));
+      ++features;
+    }
+  demand(observations == features);
+}
+
 }  // namespace map_check_detail
 
 // Throws Error when the parts of a map, each within its range (map_fields.hpp), do not fit each other: such a
@@ -86,6 +111,10 @@ inline void check_map(const Map<double>& map) {
   for (std::size_t k = 0; k < map.keyframes.size(); ++k) check_keyframe(map, k, axes);
   check_landmarks(map, map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
   check_landmarks(map, map.lines, [](const Keyframe<double>& kf) { return kf.frame.lines.size(); });
+  check_links(
+      map, map.points, [](const Keyframe<double>& kf) -> auto& { return kf.point_landmarks; });
+  check_links(
+      map, map.lines, [](const Keyframe<double>& kf) -> auto& { return kf.line_landmarks; });
   for (const auto& l : map.lines) demand(is_unit(l.line.direction) && l.axis < axes);
   for (const auto& p : map.planes) demand(is_unit(p.plane.normal) && p.axis < axes);
 }

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 
 #include "sslam/io/files/output_file.hpp"
+#include "sslam/io/files/pipe_text.hpp"
 #include "sslam/io/files/text.hpp"
 #include "sslam/io/maps/byte_archive.hpp"
 #include "sslam/io/maps/checksum.hpp"
@@ -54,12 +56,19 @@ inline void write_sealed(const std::filesystem::path& path, const SealedKind& ki
 // The bytes. Throws Error when the file is missing, of another kind or version, cut off, or damaged.
 [[nodiscard]] inline std::string read_sealed(const std::filesystem::path& path, const SealedKind& kind) {
   const std::string name = kind.name;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) throw Error(path.string() + ": cannot read this " + name);
+  constexpr std::size_t kLargest = std::size_t{1} << 36;  // more than a map in memory can have
+  std::ifstream file;
+  std::istringstream piped;
+  const bool pipe = is_pipe(path);
+  if (pipe)
+    piped.str(read_pipe(path, kLargest));
+  else
+    file.open(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) throw Error(path.string() + ": cannot read this " + name);
+  std::istream& in = pipe ? static_cast<std::istream&>(piped) : file;
   std::string magic(kind.magic.size(), '\0');
   in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
   if (magic != kind.magic) throw Error(path.string() + ": is no " + name + "; expected " + kind.expected);
-  constexpr std::size_t kLargest = std::size_t{1} << 36;  // more than a map in memory can have
   std::string bytes = read_rest(in, path, kLargest);
   try {
     ByteReader head{bytes};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <initializer_list>
 #include <opencv2/core.hpp>
@@ -49,6 +50,8 @@ struct NormalManifest {
 
 namespace normal_manifest_detail {
 
+inline constexpr double kLargest = 1e9;
+
 class Reader {
  public:
   explicit Reader(std::filesystem::path file) : file_(std::move(file)) {}
@@ -88,7 +91,7 @@ class Reader {
     const cv::FileNode node = parent[key];
     if (node.empty()) return otherwise;
     const double value = node.isInt() || node.isReal() ? node.real() : -1;
-    if (!(value > 0 && value < 1e9)) fail(where + "." + key, "not a positive number");
+    if (!(value > 0 && value < kLargest)) fail(where + "." + key, "not a positive number");
     return value;
   }
 
@@ -103,6 +106,7 @@ class Reader {
       const cv::FileNode item = node[static_cast<int>(i)];
       if (!item.isInt() && !item.isReal()) fail(where + "." + key, "holds something that is no number");
       values[i] = item.real();
+      if (!(std::abs(values[i]) < kLargest)) fail(where + "." + key, "holds a number beyond 1e9");
     }
   }
 
