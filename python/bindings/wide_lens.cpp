@@ -8,10 +8,13 @@
 #include <filesystem>
 
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/images.hpp"
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/camera_fit.hpp"
 #include "cli/input/size_text.hpp"
+#include "sslam/opencv/camera/camera_file.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::python {
 namespace {
@@ -46,7 +49,7 @@ nb::object made_of(const Lens& lens, const PixelArray& pixels, const char* name,
                               .c_str());
   cv::Mat made;
   {
-    const nb::gil_scoped_release free;
+    const Free free;
     made = make(given);
   }
   return image_array(std::move(made));
