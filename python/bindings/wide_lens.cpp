@@ -75,14 +75,18 @@ void bind_wide_lens(nb::module_& module) {
           [](const Lens& l, const PixelArray& image) {
             return made_of(l, image, "image", [&](const cv::Mat& given) { return l.view.of(given); });
           },
-          nb::arg("image"))
+          nb::arg("image"),
+          nb::sig("def image(self, image: numpy.typing.NDArray[numpy.uint8]) -> "
+                  "numpy.typing.NDArray[numpy.uint8]"))
       .def(
           "mask",
           [](const Lens& l, const std::optional<PixelArray>& mask) {
             if (!mask) return image_array(l.view.seen().clone());
             return made_of(l, *mask, "mask", [&](const cv::Mat& given) { return l.view.mask(given); });
           },
-          nb::arg("mask").none());
+          nb::arg("mask").none(),
+          nb::sig("def mask(self, mask: numpy.typing.NDArray[numpy.uint8] | None) -> "
+                  "numpy.typing.NDArray[numpy.uint8]"));
   module.def(
       "is_wide",
       [](const std::filesystem::path& path) { return read_wide_camera_file(path).wide.has_value(); },

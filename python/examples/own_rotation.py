@@ -40,7 +40,8 @@ def normals_of(axes: Floats, camera: sslam.Camera) -> Floats:
     rays = np.dstack([x, y, np.ones_like(x)])
     normals = axes.T[np.arange(rows) * 3 // rows][:, None, :].repeat(columns, axis=1)
     towards = -np.sign(np.sum(normals * rays, axis=2, keepdims=True))
-    return normals * towards
+    facing: Floats = normals * towards
+    return facing
 
 
 def main() -> int:

@@ -74,10 +74,6 @@ class Normals(unittest.TestCase):
             rotation = sslam.manhattan_rotation(seen[::7])
             self.assertEqual(rotation.status, sslam.Status.OK)
             self.assertEqual(given.track(frames()[0].image, 0.0, name=image.stem).normals_status, "ok")
-        whole = np.dstack([found.normals, found.planar])
-        again = system().track(frames()[0].image, 0.0, normals=whole) if size[1] * 3 == size[0] * 4 else None
-        if again is not None:
-            self.assertEqual(again.normals_status, "ok")
         rgb = self.network(frames()[0].image[:, :, ::-1], camera, colours="rgb")
         np.testing.assert_array_equal(rgb.normals, found.normals)
 

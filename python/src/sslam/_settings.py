@@ -30,7 +30,7 @@ def parameters(preset: str = "structure") -> List[Parameter]:
     return [Parameter(*values) for values in _sslam.preset_parameters(_check.text("preset", preset))]
 
 
-def as_camera(name: str, camera: Union[Camera, Path]) -> Camera:
+def as_camera(name: str, camera: object) -> Camera:
     if isinstance(camera, Camera):
         return camera
     if not isinstance(camera, (str, bytes, os.PathLike)):
