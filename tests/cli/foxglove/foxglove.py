@@ -194,6 +194,7 @@ def exported(path):
 
 def check_refusals(program, packages, scratch):
     room, out = make_room(program, scratch), scratch / "out"
+    refused(program, *track(room, out), "--quiet", "--record", scratch / "none" / "walk.mcap", words="walk.mcap: there is no folder ")
     with contextlib.closing(socket.create_server(("127.0.0.1", 0))) as taken:
         port = taken.getsockname()[1]
         refused(program, *track(room, out), "--quiet", "--foxglove", port, words=f"--foxglove 127.0.0.1:{port}: is in use by another program")
