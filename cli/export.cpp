@@ -180,7 +180,8 @@ std::string export_map(const ExportSettings& settings, const RunFolder& run, con
   if (settings.format == "mcap") {
     const McapCounts counts = write_mcap_export(stage / "run.mcap", run);
     return "run.mcap (" + std::to_string(counts.poses) + " poses, " + std::to_string(counts.points) +
-           " points, " + std::to_string(counts.lines) + " lines)";
+           " points, " + std::to_string(counts.lines) + " lines, " + std::to_string(counts.pictures) +
+           " pictures)";
   }
   write_map_ply(stage / "map.ply", run.map, run.colours, is_metric(run.metrics) ? "unit: metres" : "");
   return "map.ply";

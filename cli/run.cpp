@@ -73,7 +73,10 @@ void add_input_options(CLI::App& command, RunSettings& s) {
                   "Mask: an image whose pixels of 0 are left out of all frames (a robot's own parts, "
                   "burnt-in text), or a folder with a mask for each frame, NAME.png")
       ->type_name("FILE");
-  command.add_option("--record", s.record, "Save the tracked images as a dataset in a new folder")
+  command
+      .add_option("--record", s.record,
+                  "Save the tracked images as a dataset in a new folder; FILE.mcap: save the results as "
+                  "`sslam export --format mcap` does")
       ->type_name("DIR");
   command.add_option("--retry", s.retry, "Seconds during which a lost camera or stream is tried again")
       ->capture_default_str()

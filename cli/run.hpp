@@ -60,7 +60,7 @@ struct RunSettings {
   bool report = true;      // write report.html
   bool dense = false;      // write the dense model of planes
   double retry = 10;       // seconds that a lost stream is tried again for
-  std::string record;      // folder to keep what is tracked in, as a dataset; empty: none
+  std::string record;      // folder to keep what is tracked in, as a dataset, or FILE.mcap; empty: none
   std::string video;       // overlay video to write; empty: none
   bool view = false;       // show the run while it goes on, and its report until Ctrl-C
   int port = 0;            // of that page; 0: any free one

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 #include <utility>
 
+#include "cli/results/frame_table.hpp"
 #include "cli/results/ros_messages.hpp"
 #include "cli/shell/messages.hpp"
 #include "cli/view/map_copy.hpp"
@@ -14,12 +16,24 @@ namespace sslam::cli {
 namespace {
 
 // By their places in the list.
-enum Channel : std::size_t { kTf, kPath, kPoints, kLines, kPlanes, kCamera, kImage, kLog };
+enum Channel : std::size_t {
+  kTf,
+  kPath,
+  kPoints,
+  kLines,
+  kPlanes,
+  kCamera,
+  kImage,
+  kLog,
+  kDiagnostics,
+  kNormals
+};
 
 std::vector<StreamChannel> channels() {
-  return {{ros_topics::kTf, false},   {ros_topics::kPath, true},   {ros_topics::kPoints, true},
-          {ros_topics::kLines, true}, {ros_topics::kPlanes, true}, {ros_topics::kCamera, true},
-          {ros_topics::kImage, true}, {ros_topics::kLog, false}};
+  return {{ros_topics::kTf, false},    {ros_topics::kPath, true},   {ros_topics::kPoints, true},
+          {ros_topics::kLines, true},  {ros_topics::kPlanes, true}, {ros_topics::kCamera, true},
+          {ros_topics::kImage, true},  {ros_topics::kLog, false},   {ros_topics::kDiagnostics, false},
+          {ros_topics::kNormals, true}};
 }
 
 // At most so often a map is copied, which costs the tracker a few milliseconds.
@@ -60,13 +74,22 @@ void LiveStream::frame_tracked(const FrameEvent& event) {
     hand_over(kTf, now_, transform_message(now_, event.report.cam_from_world.inverse()));
   if (server_.wanted(kImage) && !event.input.picture.empty()) {
     const std::lock_guard lock(handing_);
-    if (handover_.picture.empty()) {
-      handover_.picture = event.input.picture.clone();
-      handover_.picture_time = now_;
-    }
+    if (handover_.picture.image.empty()) handover_.picture = {event.input.picture.clone(), now_};
   }
+  if (server_.wanted(kNormals) && !event.input.normal_picture.empty()) {
+    const std::lock_guard lock(handing_);
+    if (handover_.normals.image.empty()) handover_.normals = {event.input.normal_picture.clone(), now_};
+  }
+  if (server_.wanted(kDiagnostics)) hand_over(kDiagnostics, now_, diagnostics_of(event));
   if (map_is_new_) hand_map_over(event);
   server_.wake();
+}
+
+// As `sslam export` makes it of frames.csv.
+std::string LiveStream::diagnostics_of(const FrameEvent& event) const {
+  const std::vector<std::string> texts = frame_cells({event.report, event.input.label});
+  return diagnostics_message(now_, frame_columns(),
+                             std::vector<std::string_view>(texts.begin(), texts.end()));
 }
 
 void LiveStream::map_changed(const FrameEvent& event) {
@@ -127,9 +150,14 @@ std::vector<StreamMessage> LiveStream::take() {
   const auto add = [&](std::size_t channel, std::int64_t time, std::string bytes) {
     messages.push_back(message_of(channel, time, std::move(bytes)));
   };
-  if (std::vector<unsigned char> jpeg; !taken.picture.empty() && cv::imencode(".jpg", taken.picture, jpeg))
-    add(kImage, taken.picture_time,
-        image_message(taken.picture_time, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()}));
+  const auto add_picture = [&](std::size_t channel, const Picture& picture) {
+    std::vector<unsigned char> jpeg;
+    if (!picture.image.empty() && cv::imencode(".jpg", picture.image, jpeg))
+      add(channel, picture.time,
+          image_message(picture.time, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()}));
+  };
+  add_picture(kImage, taken.picture);
+  add_picture(kNormals, taken.normals);
   if (taken.map) {
     const MapState& state = *taken.map;
     add(kPath, state.time, path_message(state.time, state.trajectory, seconds_per_stamp_));

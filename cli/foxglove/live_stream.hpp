@@ -44,12 +44,16 @@ class LiveStream : public Observer {
     MapColours colours;
     io::Trajectory trajectory;
   };
+  struct Picture {
+    cv::Mat image;  // empty: none
+    std::int64_t time = 0;
+  };
   struct Handover {
     std::vector<StreamMessage> ready;
-    cv::Mat picture;  // empty: none
-    std::int64_t picture_time = 0;
+    Picture picture, normals;
     std::optional<MapState> map;
   };
+  [[nodiscard]] std::string diagnostics_of(const FrameEvent& event) const;
   [[nodiscard]] bool map_wanted() const;
   void hand_map_over(const FrameEvent& event);
   void hand_over(std::size_t channel, std::int64_t time, std::string message);

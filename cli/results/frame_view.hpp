@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "sslam/geometry/camera.hpp"
 #include "sslam/system/observer.hpp"
@@ -35,5 +37,25 @@ struct FrameViewInput {
 //   u8 whether axes follow; 9 f32, the axes of the room in the camera frame, one after the other
 // x and y of the picture run from 0 to 65535 over its width and height.
 [[nodiscard]] std::string encode_frame_view(const FrameViewInput& input, const TrackedFrame<double>& frame);
+
+// A view, read back.
+struct FrameView {
+  struct Line {
+    Vec2<double> start, end;
+    int axis = 0;  // -1: none
+    bool mapped = false;
+  };
+  std::size_t row = 0;
+  std::string_view picture, normals;  // JPEG; empty: none
+  std::vector<Vec2<double>> points;   // 0 to 1 over the picture, as the lines
+  std::size_t mapped = 0;             // of the points, the first
+  std::vector<Line> lines;
+};
+
+// `bytes` outlive the answer. Throws Error when they end too early.
+[[nodiscard]] FrameView decode_frame_view(std::string_view bytes);
+
+// The picture with its features, as in the overlay video, as JPEG; empty where it cannot be decoded.
+[[nodiscard]] std::vector<unsigned char> draw_frame_view(const FrameView& view);
 
 }  // namespace sslam::cli

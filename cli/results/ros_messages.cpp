@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/results/ros_messages.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "cli/results/plane_sheets.hpp"
 #include "sslam/io/bags/cdr_writer.hpp"
 #include "sslam/io/bags/upright.hpp"
+#include "sslam/track/contract/result.hpp"
 
 namespace sslam::cli {
 namespace {
@@ -39,6 +43,28 @@ std::string marker_message(std::int64_t time, const char* name, std::int32_t kin
 std::array<float, 4> float_colour(const io::Colour& c, float alpha = 1) {
   constexpr float kWhite = 255;
   return {c[0] / kWhite, c[1] / kWhite, c[2] / kWhite, alpha};
+}
+
+// Of a triangle's texture, at points that are spread over it.
+std::array<float, 4> mean_colour(const TexturedMesh& mesh, const std::array<std::size_t, 3>& corners,
+                                 const cv::Mat& texture) {
+  if (texture.empty()) return {1, 1, 1, 1};
+  constexpr int kSteps = 8;
+  cv::Scalar sum;
+  int count = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; i + j < kSteps; ++j, ++count) {
+      const float a = (static_cast<float>(i) + 1.0F / 3) / kSteps,
+                  b = (static_cast<float>(j) + 1.0F / 3) / kSteps;
+      const Vec2<float> at = a * mesh.textures[corners[0]] + b * mesh.textures[corners[1]] +
+                             (1 - a - b) * mesh.textures[corners[2]];
+      const auto inside = [](float share, int size) {
+        return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
+      };
+      sum += cv::Scalar(texture.at<cv::Vec3b>(inside(at.y(), texture.rows), inside(at.x(), texture.cols)));
+    }
+  const auto mean = [&](int channel) { return static_cast<std::uint8_t>(std::lround(sum[channel] / count)); };
+  return float_colour({mean(2), mean(1), mean(0)});
 }
 
 }  // namespace
@@ -135,6 +161,41 @@ std::string camera_message(std::int64_t time, const Camera<double>& camera) {
 std::string image_message(std::int64_t time, std::string_view jpeg) {
   io::CdrWriter cdr;
   cdr.header(time, kCameraFrame).text("jpeg").length(jpeg.size()).raw(jpeg);
+  return cdr.message();
+}
+
+std::string mesh_message(std::int64_t time, const TexturedMesh& mesh) {
+  constexpr std::int32_t kTriangleList = 11;
+  const SE3<double> upright = io::upright_from_map();
+  const cv::Mat texture = cv::imdecode(mesh.jpeg, cv::IMREAD_COLOR);
+  MarkerCorners triangles;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::array<std::size_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+    for (const std::size_t corner : corners)
+      triangles.places.push_back(upright * mesh.places[corner].cast<double>());
+    triangles.colours.insert(triangles.colours.end(), 3, mean_colour(mesh, corners, texture));
+  }
+  return marker_message(time, "mesh", kTriangleList, {1, 1, 1}, {1, 1, 1, 1}, triangles);
+}
+
+std::string diagnostics_message(std::int64_t time, std::span<const std::string> columns,
+                                std::span<const std::string_view> cells) {
+  constexpr std::uint8_t kFine = 0, kWarning = 1, kError = 2;
+  std::string_view state, reason;
+  std::vector<std::size_t> figures;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i] == "state") state = cells[i];
+    if (columns[i] == "reason") reason = cells[i];
+    if (columns[i] != "state" && columns[i] != "reason" && columns[i] != "stamp") figures.push_back(i);
+  }
+  const bool doubtful = state == name(State::kInitialising) || state == name(State::kUncertain);
+  std::string message(state);
+  if (!reason.empty()) message += ": " + std::string(reason);
+  io::CdrWriter cdr;
+  cdr.header(time, kCameraFrame).length(1);
+  cdr.number(state == name(State::kLost) ? kError : doubtful ? kWarning : kFine);
+  cdr.text("sslam: tracking").text(message).text("").length(figures.size());
+  for (const std::size_t i : figures) cdr.text(columns[i]).text(cells[i]);
   return cdr.message();
 }
 

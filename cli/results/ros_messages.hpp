@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/results/map_colours.hpp"
+#include "cli/results/textured_mesh.hpp"
 #include "sslam/geometry/camera.hpp"
 #include "sslam/io/trajectories/trajectory.hpp"
 #include "sslam/map/map.hpp"
@@ -30,6 +31,10 @@ inline constexpr RosTopic kLines{"/lines", "visualization_msgs/Marker"};
 inline constexpr RosTopic kPlanes{"/planes", "visualization_msgs/Marker"};
 inline constexpr RosTopic kCamera{"/camera_info", "sensor_msgs/CameraInfo"};
 inline constexpr RosTopic kImage{"/image/compressed", "sensor_msgs/CompressedImage"};
+inline constexpr RosTopic kOverlay{"/overlay/compressed", "sensor_msgs/CompressedImage"};
+inline constexpr RosTopic kNormals{"/normals/compressed", "sensor_msgs/CompressedImage"};
+inline constexpr RosTopic kMesh{"/mesh", "visualization_msgs/Marker"};
+inline constexpr RosTopic kDiagnostics{"/diagnostics", "diagnostic_msgs/DiagnosticArray"};
 inline constexpr RosTopic kLog{"/rosout", "rcl_interfaces/Log"};
 
 }  // namespace ros_topics
@@ -60,6 +65,13 @@ inline constexpr RosTopic kLog{"/rosout", "rcl_interfaces/Log"};
 
 // `jpeg`: the image's file, of the frame `camera`.
 [[nodiscard]] std::string image_message(std::int64_t time, std::string_view jpeg);
+
+// One marker, the triangles of `--dense`, each in the mean colour of its texture.
+[[nodiscard]] std::string mesh_message(std::int64_t time, const TexturedMesh& mesh);
+
+// How a frame was tracked: its state, and its row of frames.csv. `cells`: one for each of `columns`.
+[[nodiscard]] std::string diagnostics_message(std::int64_t time, std::span<const std::string> columns,
+                                              std::span<const std::string_view> cells);
 
 // A warning.
 [[nodiscard]] std::string log_message(std::int64_t time, std::string_view text);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "cli/input/first_image.hpp"
@@ -91,13 +92,25 @@ void check_wide(const RunSettings& settings, const CameraChoice& camera) {
         "height=METRES or known=METRES");
 }
 
+bool records_results(const RunSettings& settings) {
+  const std::filesystem::path file(settings.record);
+  if (file.extension() != ".mcap") return false;
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code ignored;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+    throw Error("--record " + settings.record + ": there is no folder " + folder.string());
+  if (std::filesystem::is_directory(file, ignored))
+    throw Error("--record " + settings.record + ": is a folder; choose another name");
+  return true;
+}
+
 CheckpointClock checkpoint_clock(const RunSettings& settings) {
   const CheckpointClock never(0, 0);
   const std::pair<bool, const char*> hindrances[] = {
       {settings.live, "--live, which is not repeatable"},
       {settings.view, "--view, whose page would lack the earlier frames"},
       {!settings.video.empty(), "--video, which would start again"},
-      {!settings.record.empty(), "--record, which would start again"},
+      {!settings.record.empty() && !records_results(settings), "--record, which would start again"},
       {settings.dense, "--dense, whose images are not kept"},
       {stream_named(settings.dataset).has_value(), "a stream, which cannot be read again"},
   };

@@ -52,4 +52,8 @@ void check_wide(const RunSettings& settings, const CameraChoice& camera);
 // Every parameter of the fullest preset by stage: name, default, unit, range and meaning, a line each.
 [[nodiscard]] std::string describe_parameters();
 
+// Whether --record names a file for the results, FILE.mcap, rather than a folder for the images. Throws Error
+// where there is no folder for it.
+[[nodiscard]] bool records_results(const RunSettings& settings);
+
 }  // namespace sslam::cli

@@ -11,6 +11,7 @@
 #include "cli/dense/dense_result.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
+#include "cli/results/mcap_export.hpp"
 #include "cli/results/result_set.hpp"
 #include "cli/results/run_folder.hpp"
 #include "cli/results/run_report.hpp"
@@ -89,7 +90,7 @@ void WholeRun::open_output() {
     print_note(settings_.out + ": holds the checkpoint of a run that stopped, which sslam run --resume " +
                settings_.out + " would continue; this run replaces it");
   if (settings_.foxglove) stream_.emplace(*settings_.foxglove, input_.dataset);
-  if (settings_.record.empty()) return;
+  if (settings_.record.empty() || records_results(settings_)) return;
   recording_.emplace(settings_.record);
   keep_camera(input_.camera, *recording_);
 }
@@ -182,6 +183,10 @@ void WholeRun::write() {
   if (settings_.report) write_report(results.stage(), page);
   results.commit(older);
   std::printf("written to       %s\n", settings_.out.c_str());
+  if (tracked && !settings_.record.empty() && records_results(settings_)) {
+    write_mcap_export(settings_.record, read_run_folder(settings_.out));
+    std::printf("recorded in      %s\n", settings_.record.c_str());
+  }
   if (pass_->video) pass_->video->commit();
   if (interrupted || Interrupt::asked()) {
     const bool resumable = has_checkpoint(settings_.out);

@@ -79,6 +79,8 @@ template <int R, int C>
 [[nodiscard]] inline SE3<double> pose_from(const double* values, const std::string& what) {
   const Vec3<double> translation(values[3], values[7], values[11]);
   if (!translation.allFinite()) throw nb::value_error((what + ": the translation is not finite").c_str());
+  if (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1)
+    throw nb::value_error((what + ": the last row is not 0 0 0 1; expected a pose, 4x4").c_str());
   return {rotation_from(values, 4, what), translation};
 }
 

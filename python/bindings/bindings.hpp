@@ -12,6 +12,7 @@ void bind_wide_lens(nanobind::module_& module);
 void bind_system(nanobind::module_& module);
 void bind_map(nanobind::module_& module);
 void bind_kernels(nanobind::module_& module);
+void bind_image_kernels(nanobind::module_& module);
 void bind_map_kernels(nanobind::module_& module);
 void bind_datasets(nanobind::module_& module);
 void bind_evaluation(nanobind::module_& module);

@@ -21,13 +21,29 @@ Camera<double> make(double fx, double fy, double cx, double cy, int width, int h
                                                    {"k2", k2}, {"p1", p1}, {"p2", p2}, {"k3", k3}};
   for (const auto& [name, value] : finite)
     if (!std::isfinite(value)) throw nb::value_error((std::string(name) + ": not a finite number").c_str());
-  if (width <= 0 || height <= 0)
-    throw nb::value_error(
-        (std::string(width <= 0 ? "width" : "height") + ": expected a number of pixels, above 0").c_str());
   const Camera<double> camera{{fx, fy, cx, cy}, {k1, k2, p1, p2, k3}, width, height};
   if (const CameraCheck check = check_camera(camera); !check.fault.empty())
     throw nb::value_error(("camera: " + check.fault).c_str());
   return camera;
+}
+
+// An argument, looked at by the Python side: one wording for all that is refused.
+nb::object checked(const char* check, const char* name, nb::handle value) {
+  return nb::module_::import_("sslam._check").attr(check)(name, value);
+}
+
+double real(const char* name, nb::handle value) {
+  return nb::cast<double>(checked("real", name, value));
+}
+
+int pixels(const char* name, nb::handle value) {
+  return nb::cast<int>(nb::module_::import_("sslam._check").attr("whole")(name, value, 1));
+}
+
+nb::tuple values_of(const Camera<double>& c) {
+  const Pinhole<double>& p = c.pinhole;
+  const RadTan<double>& d = c.distortion;
+  return nb::make_tuple(p.fx, p.fy, p.cx, p.cy, c.width, c.height, d.k1, d.k2, d.p1, d.p2, d.k3);
 }
 
 Mat3<double> matrix(const Camera<double>& camera) {
@@ -48,15 +64,26 @@ void bind_camera(nb::module_& module) {
       "are those of its images, pixels.")
       .def(
           "__init__",
-          [](C* self, double fx, double fy, double cx, double cy, int width, int height, double k1, double k2,
-             double p1, double p2,
-             double k3) { new (self) C(make(fx, fy, cx, cy, width, height, k1, k2, p1, p2, k3)); },
-          nb::arg("fx"), nb::arg("fy"), nb::arg("cx"), nb::arg("cy"), nb::arg("width"), nb::arg("height"),
-          nb::arg("k1") = 0.0, nb::arg("k2") = 0.0, nb::arg("p1") = 0.0, nb::arg("p2") = 0.0,
-          nb::arg("k3") = 0.0)
+          [](C* self, nb::handle fx, nb::handle fy, nb::handle cx, nb::handle cy, nb::handle width,
+             nb::handle height, nb::handle k1, nb::handle k2, nb::handle p1, nb::handle p2, nb::handle k3) {
+            new (self) C(make(real("fx", fx), real("fy", fy), real("cx", cx), real("cy", cy),
+                              pixels("width", width), pixels("height", height), real("k1", k1),
+                              real("k2", k2), real("p1", p1), real("p2", p2), real("k3", k3)));
+          },
+          nb::arg("fx").none(), nb::arg("fy").none(), nb::arg("cx").none(), nb::arg("cy").none(),
+          nb::arg("width").none(), nb::arg("height").none(), nb::arg("k1").none() = 0.0,
+          nb::arg("k2").none() = 0.0, nb::arg("p1").none() = 0.0, nb::arg("p2").none() = 0.0,
+          nb::arg("k3").none() = 0.0,
+          nb::sig("def __init__(self, fx: float, fy: float, cx: float, cy: float, width: int, height: int, "
+                  "k1: float = 0.0, k2: float = 0.0, p1: float = 0.0, p2: float = 0.0, k3: float = 0.0) -> "
+                  "None"))
       .def_static(
-          "from_file", [](const std::filesystem::path& path) { return read_camera_file(path).camera; },
-          nb::arg("path"), "Reads a camera file in any format that docs/inputs.md lists. Raises sslam.Error.")
+          "from_file",
+          [](nb::handle path) {
+            return read_camera_file(nb::cast<std::filesystem::path>(checked("path", "path", path))).camera;
+          },
+          nb::arg("path").none(), nb::sig("def from_file(path: str | os.PathLike) -> Camera"),
+          "Reads a camera file in any format that docs/inputs.md lists. Raises sslam.Error.")
       .def_prop_ro("fx", [](const C& c) { return c.pinhole.fx; })
       .def_prop_ro("fy", [](const C& c) { return c.pinhole.fy; })
       .def_prop_ro("cx", [](const C& c) { return c.pinhole.cx; })
@@ -70,6 +97,14 @@ void bind_camera(nb::module_& module) {
       .def_ro("height", &C::height, "pixels")
       .def_prop_ro(
           "matrix", [](const C& c) { return matrix_array<3, 3>(matrix(c)); }, "K, (3, 3)")
+      .def(
+          "__eq__", [](const C& a, const C& b) { return values_of(a).equal(values_of(b)); },
+          nb::is_operator(), nb::sig("def __eq__(self, other: object) -> bool"))
+      .def("__hash__", [](const C& c) { return nb::hash(values_of(c)); })
+      .def("__reduce__",
+           [](nb::handle self) {  // copies, and other processes
+             return nb::make_tuple(self.type(), values_of(nb::cast<const C&>(self)));
+           })
       .def("__repr__", [](const C& c) {
         char text[400];
         std::snprintf(

@@ -11,6 +11,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/images.hpp"
 #include "bindings/messages.hpp"
 #include "cli/input/first_image.hpp"
@@ -44,7 +45,7 @@ void look_through(Recording& recording) {
 
 std::unique_ptr<Recording> open(const std::filesystem::path& path, const io::BagTopics& topics,
                                 const cli::CameraWish& wish, double frame_rate, const io::Slice& slice) {
-  const nb::gil_scoped_release free;
+  const Free free;
   auto recording = std::make_unique<Recording>();
   (void)take_messages();
   io::Dataset& dataset = recording->dataset;
@@ -73,7 +74,7 @@ class Frames {
     cv::Mat image, depth;
     std::string why, name;
     {
-      const nb::gil_scoped_release free;
+      const Free free;
       const std::lock_guard lock(mutex_);
       if (at_ < recording_.dataset.frames.size()) {
         entry = &recording_.dataset.frames[at_++];

@@ -9,6 +9,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "cli/results/truth_source.hpp"
 #include "sslam/io/evaluation/same_clock.hpp"
 #include "sslam/io/trajectories/read_trajectory.hpp"
@@ -21,7 +22,7 @@ nb::tuple read(const std::filesystem::path& path) {
   io::Warnings warnings;
   io::PoseFile file;
   {
-    const nb::gil_scoped_release free;
+    const Free free;
     file = cli::load_estimate(path, warnings);
   }
   const nb::tuple arrays = trajectory_arrays(file.trajectory);
@@ -32,7 +33,7 @@ nb::tuple read(const std::filesystem::path& path) {
 nb::tuple read_truth(const std::filesystem::path& path) {
   cli::TruthSource source;
   {
-    const nb::gil_scoped_release free;
+    const Free free;
     source = cli::load_truth(path, cli::FileAxes::kAuto);
   }
   const nb::tuple arrays = trajectory_arrays(source.trajectory);
@@ -59,7 +60,7 @@ Compared compare(const Rows<double>& truth_stamps, const Rows<double>& truth_pos
                  double seconds_per_stamp) {
   io::Trajectory truth = trajectory_from(truth_stamps, truth_poses, "truth");
   io::Trajectory estimate = trajectory_from(stamps, poses, "estimate");
-  const nb::gil_scoped_release free;
+  const Free free;
   io::EvaluationOptions options;
   for (const io::Alignment known : {io::Alignment::kNone, io::Alignment::kSe3, io::Alignment::kSim3})
     if (io::name(known) == align) options.alignment = known;

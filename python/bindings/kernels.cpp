@@ -11,14 +11,13 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/pixels.hpp"
 #include "sslam/manhattan/votes.hpp"
 #include "sslam/system/compiled_kernels.hpp"
 
 namespace sslam::python {
 namespace {
-
-using Free = nb::gil_scoped_release;
 
 // Matches of pixels as the kernels of two views want them; sigma in pixels.
 std::vector<BearingMatch<double>> matches_of(const Rows<double>& pixels0, const Rows<double>& pixels1,

@@ -5,6 +5,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/map_arrays.hpp"
 #include "sslam/io/maps/map_file.hpp"
 #include "sslam/map/plane_extent.hpp"
@@ -16,6 +17,15 @@ PointRows points_of(const Map<double>& map) {
   for (const auto& point : map.points)
     if (point.alive) append(rows.positions, point.position);
   return rows;
+}
+
+std::vector<std::uint8_t> colours_of(const Map<double>& map, const cli::MapColours& colours) {
+  std::vector<std::uint8_t> values;
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (map.points[i].alive)
+      for (const std::uint8_t value : cli::colour_at(colours.points, i).value_or(io::kNoColour))
+        values.push_back(value);
+  return values;
 }
 
 LineRows lines_of(const Map<double>& map) {
@@ -56,6 +66,11 @@ Made<double> arrays_of(PointRows rows) {
   return make_array(std::move(rows.positions), {count, 3});
 }
 
+nb::tuple arrays_of(CloudRows rows) {
+  const std::size_t count = rows.colours.size() / 3;
+  return nb::make_tuple(arrays_of(std::move(rows.points)), make_array(std::move(rows.colours), {count, 3}));
+}
+
 nb::tuple arrays_of(LineRows rows) {
   const std::size_t count = rows.axis.size();
   return nb::make_tuple(make_array(std::move(rows.ends), {count, 2, 3}),
@@ -73,7 +88,7 @@ void bind_map(nb::module_& module) {
   nb::class_<Map<double>>(module, "Map", "A map that was read from a file.")
       .def_static("load",
                   [](const std::filesystem::path& path) {
-                    const nb::gil_scoped_release free;
+                    const Free free;
                     return io::load_map(path);
                   })
       .def("points", [](const Map<double>& map) { return arrays_of(points_of(map)); })

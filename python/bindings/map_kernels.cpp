@@ -8,14 +8,13 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/pixels.hpp"
 #include "sslam/solver/bundle/scale_tie.hpp"
 #include "sslam/system/compiled_kernels.hpp"
 
 namespace sslam::python {
 namespace {
-
-using Free = nb::gil_scoped_release;
 
 bool unseen(const double* numbers, std::size_t count) {
   return std::all_of(numbers, numbers + count, [](double x) { return std::isnan(x); });

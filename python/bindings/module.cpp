@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/tracking.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/core/status.hpp"
@@ -40,6 +41,8 @@ void translate(const std::exception_ptr& thrown, void*) {
 NB_MODULE(_sslam, module) {
   module.doc() = "The compiled part of sslam: use the package `sslam`, which checks arguments.";
   nb::register_exception_translator(translate);
+  python::wait_at_exit();
+  nb::set_leak_warnings(false);  // a daemon thread that goes on to the end keeps what it has
   module.attr("__version__") = SSLAM_VERSION;
   nb::enum_<Status>(module, "Status", nb::is_arithmetic(),
                     "The result code of a kernel: one for success, and one for each kind of failure.")
@@ -58,6 +61,7 @@ NB_MODULE(_sslam, module) {
   python::bind_map(module);
   python::bind_system(module);
   python::bind_kernels(module);
+  python::bind_image_kernels(module);
   python::bind_map_kernels(module);
   python::bind_datasets(module);
   python::bind_evaluation(module);

@@ -9,6 +9,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/images.hpp"
 #include "bindings/map_arrays.hpp"
 #include "bindings/tracking.hpp"
@@ -168,7 +169,7 @@ void bind_tracking(nb::module_& module) {
              settings.longest_side = longest_side;
              settings.final_pass = final_pass;
              settings.depth_factor = depth_factor;
-             const nb::gil_scoped_release free;  // networks take a while to load
+             const Free free;  // networks take a while to load
              settings.normals = source_of_normals(normals);
              new (self) Tracking(std::move(settings), radians(normals_sigma_deg));
            })
@@ -195,7 +196,14 @@ void bind_tracking(nb::module_& module) {
            [](Tracking& t) {
              return trajectory_arrays(t.read([](const System& s) { return s.trajectory(); }));
            })
+      .def("bridged",
+           [](Tracking& t) {
+             std::vector<double> stamps = t.read([](const System& s) { return s.bridged(); });
+             const std::size_t count = stamps.size();
+             return make_array(std::move(stamps), {count});
+           })
       .def("points", reader(points_of))
+      .def("cloud", [](Tracking& t) { return arrays_of(t.cloud()); })
       .def("lines", reader(lines_of))
       .def("planes", reader(planes_of))
       .def("keyframes",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bindings/tracking.hpp"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -19,8 +21,21 @@ std::string size_of(const cv::Mat& image) {
 }  // namespace
 
 Tracking::Tracking(Settings settings, double normals_sigma)
-    : system_(std::move(settings)), normals_sigma_(normals_sigma) {
-  system_.add_observer(*this);
+    : process_(getpid()),
+      system_(std::make_unique<System>(std::move(settings))),
+      normals_sigma_(normals_sigma) {
+  system_->add_observer(*this);
+}
+
+// The threads of a system end with it; after a fork there are none, and it is left as it is.
+Tracking::~Tracking() {
+  if (getpid() != process_) (void)system_.release();
+}
+
+void Tracking::demand_same_process() const {
+  if (getpid() != process_)
+    throw Error(
+        "System: was made before this process was forked, and its threads are not here; make one here");
 }
 
 void Tracking::demand_unfinished(const char* call) const {
@@ -28,11 +43,10 @@ void Tracking::demand_unfinished(const char* call) const {
 }
 
 Result Tracking::track(const Given& given) {
-  const nanobind::gil_scoped_release free;
-  const std::lock_guard lock(in_use_);
+  const Turn turn(*this);
   demand_unfinished("track");
   ImageInput input;
-  input.index = system_.frames();
+  input.index = system_->frames();
   input.stamp = given.stamp;
   input.name = given.name;
   input.image = given.image;
@@ -40,28 +54,43 @@ Result Tracking::track(const Given& given) {
     cv::cvtColor(given.image, input.image,
                  given.image.channels() == 4 ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGB2BGR);
   input.mask = given.mask;
+  image_ = input.image;
   input.depth = given.depth;
-  input.depth_factor = system_.settings().depth_factor;
+  input.depth_factor = system_->settings().depth_factor;
   heard_ = {};
-  system_.extract(input, extraction_);
+  system_->extract(input, extraction_);
   if (extraction_.usable() && !given.normals.empty()) add_normals(given.normals);
-  static_cast<FrameReport&>(heard_) = system_.track(extraction_);
+  static_cast<FrameReport&>(heard_) = system_->track(extraction_);
   if (heard_.input != InputStatus::kOk) throw nanobind::value_error(fault(heard_.input, given).c_str());
   last_stamp_ = given.stamp;
   return std::move(heard_);
 }
 
+void Tracking::keyframe_made(const FrameEvent& event) {
+  const Camera<double>& camera = system_->camera();  // shrunk, where images are large
+  cv::Mat picture = image_;
+  if (picture.cols != camera.width)
+    cv::resize(image_, picture, {camera.width, camera.height}, 0, 0, cv::INTER_AREA);
+  colours_.note(event.frame.frame, picture, camera);
+}
+
+CloudRows Tracking::cloud() {
+  const Turn turn(*this);
+  const Map<double>& map = system_->map();
+  return {points_of(map), colours_of(map, colours_.of(map))};
+}
+
 void Tracking::add_normals(const cv::Mat& normals) {
   const auto begin = std::chrono::steady_clock::now();
   extraction_.report.normals =
-      take_normals(normals, system_.camera(), own_normals_options(system_.parameters()), normals_sigma_,
+      take_normals(normals, system_->camera(), own_normals_options(system_->parameters()), normals_sigma_,
                    extraction_.frame.normals);
   extraction_.report.normals_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::string Tracking::fault(InputStatus status, const Given& given) const {
-  const Camera<double>& camera = system_.settings().camera;
+  const Camera<double>& camera = system_->settings().camera;
   switch (status) {
     case InputStatus::kWrongSize:
       return "image: has " + size_of(given.image) + " pixels; the camera's images have " +
@@ -79,24 +108,21 @@ std::string Tracking::fault(InputStatus status, const Given& given) const {
 }
 
 bool Tracking::finish() {
-  const nanobind::gil_scoped_release free;
-  const std::lock_guard lock(in_use_);
+  const Turn turn(*this);
   finished_ = true;
-  return system_.finish();
+  return system_->finish();
 }
 
 void Tracking::load(const std::filesystem::path& path) {
-  const nanobind::gil_scoped_release free;
-  const std::lock_guard lock(in_use_);
+  const Turn turn(*this);
   demand_unfinished("load");
-  system_.load(path);
+  system_->load(path);
 }
 
 void Tracking::localise_only(bool on) {
-  const nanobind::gil_scoped_release free;
-  const std::lock_guard lock(in_use_);
+  const Turn turn(*this);
   demand_unfinished("localise_only");
-  system_.localise_only(on);
+  system_->localise_only(on);
 }
 
 }  // namespace sslam::python

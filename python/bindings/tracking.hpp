@@ -4,14 +4,19 @@
 #pragma once
 
 #include <nanobind/nanobind.h>
+#include <sys/types.h>
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bindings/free.hpp"
+#include "bindings/map_arrays.hpp"
+#include "cli/results/map_colours.hpp"
 #include "sslam/system/system.hpp"
 
 namespace sslam::python {
@@ -41,6 +46,7 @@ class Tracking : Observer {
  public:
   // normals_sigma: of normals that come with the images, radians (NormalField::plane_sigma).
   Tracking(Settings settings, double normals_sigma);
+  ~Tracking() override;
   Tracking(const Tracking&) = delete;
   Tracking& operator=(const Tracking&) = delete;
 
@@ -52,26 +58,40 @@ class Tracking : Observer {
   // What use(system) answers, when nobody else uses the system. Runs without the interpreter's lock.
   template <class Use>
   auto read(Use use) {
-    const nanobind::gil_scoped_release free;
-    const std::lock_guard lock(in_use_);
-    return use(std::as_const(system_));
+    const Turn turn(*this);
+    return use(std::as_const(*system_));
   }
+  [[nodiscard]] CloudRows cloud();
 
   // For what needs no turn.
-  [[nodiscard]] const System& system() const noexcept { return system_; }
+  [[nodiscard]] const System& system() const {
+    demand_same_process();
+    return *system_;
+  }
 
  private:
+  // One caller's turn, without the interpreter's lock.
+  struct Turn {
+    explicit Turn(Tracking& tracking) : lock((tracking.demand_same_process(), tracking.in_use_)) {}
+    Free free;
+    std::lock_guard<std::mutex> lock;
+  };
+  void demand_same_process() const;
   void demand_unfinished(const char* call) const;
   [[nodiscard]] std::string fault(InputStatus status, const Given& given) const;
   void add_normals(const cv::Mat& normals);
+  void keyframe_made(const FrameEvent& event) override;
   void map_changed(const FrameEvent&) override { heard_.map_changed = true; }
   void warning(const std::string& line) override { heard_.warnings.push_back(line); }
 
-  System system_;
+  pid_t process_;
+  std::unique_ptr<System> system_;
   double normals_sigma_;
   std::mutex in_use_;  // the members below, and what changes the system
   Extraction extraction_;
   Result heard_;
+  cv::Mat image_;  // of the frame that is being tracked
+  cli::FeatureColours colours_;
   std::optional<double> last_stamp_;
   bool finished_ = false;
 };

@@ -8,10 +8,13 @@
 #include <filesystem>
 
 #include "bindings/bindings.hpp"
+#include "bindings/free.hpp"
 #include "bindings/images.hpp"
 #include "cli/input/camera_choice.hpp"
 #include "cli/input/camera_fit.hpp"
 #include "cli/input/size_text.hpp"
+#include "sslam/opencv/camera/camera_file.hpp"
+#include "sslam/opencv/camera/wide_view.hpp"
 
 namespace sslam::python {
 namespace {
@@ -46,7 +49,7 @@ nb::object made_of(const Lens& lens, const PixelArray& pixels, const char* name,
                               .c_str());
   cv::Mat made;
   {
-    const nb::gil_scoped_release free;
+    const Free free;
     made = make(given);
   }
   return image_array(std::move(made));
@@ -72,14 +75,18 @@ void bind_wide_lens(nb::module_& module) {
           [](const Lens& l, const PixelArray& image) {
             return made_of(l, image, "image", [&](const cv::Mat& given) { return l.view.of(given); });
           },
-          nb::arg("image"))
+          nb::arg("image"),
+          nb::sig("def image(self, image: numpy.typing.NDArray[numpy.uint8]) -> "
+                  "numpy.typing.NDArray[numpy.uint8]"))
       .def(
           "mask",
           [](const Lens& l, const std::optional<PixelArray>& mask) {
             if (!mask) return image_array(l.view.seen().clone());
             return made_of(l, *mask, "mask", [&](const cv::Mat& given) { return l.view.mask(given); });
           },
-          nb::arg("mask").none());
+          nb::arg("mask").none(),
+          nb::sig("def mask(self, mask: numpy.typing.NDArray[numpy.uint8] | None) -> "
+                  "numpy.typing.NDArray[numpy.uint8]"));
   module.def(
       "is_wide",
       [](const std::filesystem::path& path) { return read_wide_camera_file(path).wide.has_value(); },

@@ -11,11 +11,14 @@ This one makes them of the dataset's depth images; a network's output is handed 
 import sys
 
 import numpy as np
+from numpy.typing import NDArray
 
 import sslam
 
+Floats = NDArray[np.float64]
 
-def normals_of(depth: np.ndarray, camera: sslam.Camera) -> np.ndarray:
+
+def normals_of(depth: Floats, camera: sslam.Camera) -> Floats:
     """(H, W, 3) from depth in metres, by the cross product of neighbours; zero where depth is missing."""
     v, u = np.indices(depth.shape)
     points = np.dstack([(u - camera.cx) / camera.fx * depth, (v - camera.cy) / camera.fy * depth, depth])
@@ -23,7 +26,8 @@ def normals_of(depth: np.ndarray, camera: sslam.Camera) -> np.ndarray:
     normals = np.cross(down, across)
     length = np.linalg.norm(normals, axis=2)
     normals[(depth <= 0) | (length == 0)] = 0
-    return normals / np.maximum(length, 1e-12)[..., None]
+    unit: Floats = normals / np.maximum(length, 1e-12)[..., None]
+    return unit
 
 
 def main() -> int:

@@ -1,6 +1,11 @@
 """System: callbacks; threads; what it refuses."""
 
+import copy
 import gc
+import os
+import pickle
+import subprocess
+import sys
 import threading
 import unittest
 
@@ -104,6 +109,11 @@ class Faults(unittest.TestCase):
         self.refuses(ValueError, "normals: ", tracker.track, image, 0.0, normals=np.ones((60, 80), np.float32))
         self.refuses(TypeError, "normals: ", tracker.track, image, 0.0, normals=np.ones((60, 80, 3), np.uint8))
         self.refuses(TypeError, "name: ", tracker.track, image, 0.0, name=5)
+        self.refuses(ValueError, "name: ", tracker.track, image, 0.0, name="\udc80")
+        self.refuses(TypeError, "image: has dtype >f4", tracker.track, image.astype(">f4"), 0.0)
+        self.refuses(TypeError, "depth: has dtype >u2", tracker.track, image, 0.0, depth=np.ones((240, 320), ">u2"))
+        self.refuses(ValueError, "image: has shape ()", tracker.track, np.uint8(3), 0.0)
+        self.refuses(TypeError, "on: ", tracker.localise_only, np.ones(3))
         self.assertEqual(tracker.frames, 0)
 
     def test_stamps_must_be_numbers_that_grow(self):
@@ -111,7 +121,7 @@ class Faults(unittest.TestCase):
         tracker.track(image, 5.0)
         for stamp in (float("nan"), float("inf"), 5.0, 4.0):
             self.refuses(ValueError, "stamp: ", tracker.track, image, stamp)
-        for stamp in ("6", None, [6.0], np.zeros(2)):
+        for stamp in ("6", None, [6.0], np.zeros(2), np.zeros((9, 99)), 10**400, 1j):
             self.refuses(TypeError, "stamp: ", tracker.track, image, stamp)
         self.assertEqual(tracker.frames, 1)
         tracker.track(image, np.float32(6))
@@ -141,15 +151,39 @@ class Faults(unittest.TestCase):
         self.refuses(ValueError, "colours: ", sslam.System, camera, colours="gbr")
         self.refuses(ValueError, "longest_side: ", sslam.System, camera, longest_side=-1)
         self.refuses(ValueError, "depth_factor: ", sslam.System, camera, depth_factor=0)
+        self.refuses(TypeError, "live: ", sslam.System, camera, live="no")
+        self.refuses(ValueError, "preset: ", sslam.System, camera, "\udc80")
+        self.refuses(ValueError, "event: ", system().on, ["warning"], print)
         self.refuses(TypeError, "camera: ", sslam.System, 5)
         self.refuses(sslam.Error, "/nowhere.yaml: ", sslam.System, "/nowhere.yaml")
         self.refuses(ValueError, "fx: ", sslam.Camera, float("nan"), 1, 1, 1, 640, 480)
+        self.refuses(TypeError, "fy: ", sslam.Camera, 500, "500", 320, 240, 640, 480)
+        self.refuses(TypeError, "k1: ", sslam.Camera, 500, 500, 320, 240, 640, 480, k1=None)
+        self.refuses(TypeError, "height: ", sslam.Camera, 500, 500, 320, 240, 640, 480.0)
+        self.refuses(ValueError, "width: ", sslam.Camera, 500, 500, 320, 240, 2**40, 480)
+        self.refuses(TypeError, "path: ", sslam.Camera.from_file, None)
         self.refuses(ValueError, "width: ", sslam.Camera, 500, 500, 320, 240, 0, 480)
         self.refuses(ValueError, "camera: ", sslam.Camera, 1, 1, 320, 240, 640, 480)
         self.refuses(sslam.Error, "/nowhere/map.sslam: ", sslam.load_map, "/nowhere/map.sslam")
         self.refuses(sslam.Error, "/nowhere/", system().save, "/nowhere/map.sslam")
         self.refuses(ValueError, "path: ", system().save, "")
         self.refuses(TypeError, "path: ", system().save, 5)
+
+    def test_cameras_are_copied_and_sent_to_other_processes_and_systems_are_not(self):
+        camera = sslam.Camera(500, 501, 320, 240, 640, 480, k1=0.1)
+        for twin in (copy.copy(camera), copy.deepcopy(camera), pickle.loads(pickle.dumps(camera))):
+            self.assertEqual((twin, hash(twin), repr(twin)), (camera, hash(camera), repr(camera)))
+        self.assertNotEqual(camera, sslam.Camera(500, 501, 320, 240, 640, 480))
+        self.assertNotEqual(camera, 5)
+        tracker = system()
+        for call in (copy.copy, copy.deepcopy, pickle.dumps):
+            self.refuses(TypeError, "System: cannot be copied", call, tracker)
+
+    def test_an_empty_map_says_that_it_is_one(self):
+        path = f"/tmp/sslam_empty_{os.getpid()}.sslam"
+        self.addCleanup(os.unlink, path)
+        system().save(path)
+        self.refuses(sslam.Error, f"{path}: is an empty map", sslam.load_map, path)
 
     def test_parameters_have_names_values_and_defaults(self):
         self.assertIn("structure", [p.name for p in sslam.presets()])
@@ -233,6 +267,51 @@ class Threads(unittest.TestCase):
         self.assertEqual(len(kept), 3)
         del kept
         gc.collect()
+
+
+@needs_room
+class Processes(unittest.TestCase):
+    def child(self, act):
+        pid = os.fork()
+        if pid == 0:
+            code = 1
+            try:
+                code = 0 if act() else 2
+            finally:
+                os._exit(code)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 0)
+
+    def test_after_a_fork_the_parents_system_is_refused_and_an_own_one_works(self):
+        for live in (False, True):
+            box = [system(live=live)]
+            track_all(box[0], count=5)
+
+            def refused():
+                try:
+                    box[0].track(frames()[6].image, 100.0)
+                except sslam.Error as error:
+                    box.clear()  # which leaves the parent's threads alone
+                    return str(error).startswith("System: was made before this process was forked")
+
+            self.child(refused)
+            self.child(lambda: track_all(system(live=live), count=5))
+            box[0].finish()
+
+    def test_python_ends_while_another_thread_tracks(self):
+        code = f"""
+import itertools, sys, threading, sslam
+frames = list(sslam.open_dataset({str(ROOM)!r}, end=20))
+system = sslam.System({str(ROOM / "camera.yaml")!r}, normals="none")
+started = threading.Event()
+system.on("frame_tracked", lambda result: started.set())
+def track():
+    for i in itertools.count():
+        system.track(frames[i % 20].image, i)
+threading.Thread(target=track, daemon=True).start()
+started.wait()
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

@@ -48,6 +48,7 @@ class Trajectories(unittest.TestCase):
             ((good.stamps * np.nan, good.poses), ValueError, "estimate.stamps:"),
             ((good.stamps[::-1], good.poses), ValueError, "estimate.stamps:"),
             ((good.stamps, good.poses * 2), ValueError, "estimate[0]:"),
+            ((good.stamps, good.poses + np.diag([0, 0, 0, 1])), ValueError, "estimate[0]: the last row"),
         ):
             with self.assertRaises(kind) as caught:
                 sslam.evaluate(good, bad)

@@ -103,6 +103,31 @@ class Tracking(unittest.TestCase):
         self.assertTrue(odometry)
         self.assertTrue(all(r.covariance is None for r in odometry))
 
+    def test_points_come_with_the_colours_of_the_images(self):
+        tracker = system(colours="rgb")
+        red = lambda image: np.dstack([image[:, :, 1], image[:, :, 1] // 2, image[:, :, 1] // 4])  # noqa: E731
+        track_all(tracker, red)
+        tracker.finish()
+        cloud = tracker.cloud()
+        np.testing.assert_array_equal(cloud.points, tracker.points())
+        self.assertEqual((cloud.colours.shape, cloud.colours.dtype), (cloud.points.shape, np.uint8))
+        known = cloud.colours[(cloud.colours != 128).any(axis=1)].astype(int)
+        self.assertGreater(len(known), 0.9 * len(cloud.points))
+        self.assertGreater(known[:, 0].std(), 5)
+        np.testing.assert_allclose(known[:, 1], known[:, 0] / 2, atol=3)
+        np.testing.assert_allclose(known[:, 2], known[:, 0] / 4, atol=3)
+        self.assertEqual(system().cloud().colours.shape, (0, 3))
+
+    def test_bridged_poses_are_named(self):
+        tracker = system()
+        grey = np.full((240, 320), 128, np.uint8)
+        for i, frame in enumerate(frames()):
+            tracker.track(grey if 40 <= i < 43 else frame.image, frame.stamp)
+        tracker.finish()
+        poses, bridged = tracker.trajectory().stamps, tracker.bridged()
+        self.assertTrue(set(bridged) <= set(poses))
+        self.assertEqual(bridged.dtype, np.float64)
+
     def test_a_mask_leaves_features_out(self):
         everything = system().track(frames()[0].image, 0.0)
         mask = np.ones((240, 320), bool)

@@ -31,13 +31,15 @@ class Documents(unittest.TestCase):
                 os.symlink(ROOM, "room")
                 told = io.StringIO()
                 with contextlib.redirect_stdout(told):
-                    exec(compile(blocks("docs/python.md")[0], "docs/python.md", "exec"), {})
+                    for block in blocks("docs/python.md"):
+                        exec(compile(block, "docs/python.md", "exec"), {})
                 self.assertTrue(pathlib.Path("map.sslam").exists())
             finally:
                 os.chdir(before)
         self.assertRegex(told.getvalue(), r"(?m)^tracked (5\d|60) of 60 frames$")
         error = float(re.search(r"error (\S+) m", told.getvalue()).group(1))
         self.assertLess(error, 0.02)
+        self.assertRegex(told.getvalue(), r"(?m)^OK [23] axes from \d{2,} segments$")
 
     def test_the_readme_shows_the_tutorial(self):
         self.assertIn(blocks("docs/python.md")[0], blocks("README.md"))

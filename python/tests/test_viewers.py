@@ -133,6 +133,23 @@ class Viewers(unittest.TestCase):
         np.testing.assert_allclose(np.asarray(scene.path.points), self.trajectory.positions)
         self.assertEqual(len(scene.path.lines), len(self.trajectory.stamps) - 1)
 
+    @needs("trimesh")
+    def test_the_run_s_files_are_read_by_trimesh(self):
+        import trimesh
+
+        cloud = trimesh.load(self.folder / "map.ply", process=False)
+        np.testing.assert_allclose(cloud.vertices[: len(self.map.points())], self.map.points(), atol=1e-4)
+        dense = trimesh.load(self.folder / "model.glb", process=False)
+        triangles = trimesh.load(self.folder / "model.ply", process=False).faces
+        self.assertEqual(sum(len(part.faces) for part in dense.geometry.values()), len(triangles))
+        self.assertGreater(len(triangles), 10)
+        low, high = dense.bounds  # y is up: x, -y, -z of the map
+        points = self.map.points() * [1, -1, -1]
+        inside = ((low - 0.5 < points) & (points < high + 0.5)).all(axis=1)
+        self.assertGreater(inside.mean(), 0.9)
+        run("export", self.folder, "--format", "glb", "--out", self.folder / "glb")
+        self.assertGreater(len(trimesh.load(self.folder / "glb" / "model.glb").geometry), 0)
+
     def test_packages_are_imported_late_and_named_where_they_are_missing(self):
         late = "import sys, sslam; sys.exit(any(name in sys.modules for name in ('rerun', 'open3d')))"
         self.assertEqual(subprocess.run([sys.executable, "-c", late]).returncode, 0)

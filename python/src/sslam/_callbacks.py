@@ -51,6 +51,6 @@ class Callbacks:
                     callback(result)
 
     def _of_event(self, event: str) -> List[Callable[[Any], Any]]:
-        if event not in self._told:
+        if not isinstance(event, str) or event not in self._told:
             raise ValueError(f"event: {event!r} is not known; use one of {', '.join(EVENTS)}")
         return self._told[event]

@@ -63,7 +63,7 @@ def real(name: str, value: Any) -> float:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"{name}: expected one number, not {value!r}") from None
+        raise TypeError(f"{name}: expected one number that a float can hold, not {type(value).__name__}") from None
 
 
 def positive(name: str, value: Any) -> float:
@@ -82,12 +82,38 @@ def whole(name: str, value: Any, least: int, most: int = 2**31 - 1) -> int:
     return number
 
 
+def text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: expected a str, not {type(value).__name__}")
+    if "\0" in value or not value.isprintable():
+        raise ValueError(f"{name}: {value!r} has characters that are not printable")
+    return str(value)
+
+
+def flag(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name}: expected True or False, not {type(value).__name__}")
+    return bool(value)
+
+
+def is_rgb(colours: Any) -> bool:
+    if not isinstance(colours, str) or colours not in ("bgr", "rgb"):
+        raise ValueError(f"colours: {colours!r} is not known; use 'bgr' or 'rgb'")
+    return colours == "rgb"
+
+
+def size(name: str, image: NDArray[Any], width: int, height: int) -> None:
+    if image.shape[:2] != (height, width):
+        found = f"{image.shape[1]}x{image.shape[0]}"
+        raise ValueError(f"{name}: has {found} pixels; the camera's images have {width}x{height}")
+
+
 def path(name: str, value: Any) -> str:
     try:
-        text = os.fspath(value)
+        found = os.fspath(value)
     except TypeError:
         raise TypeError(f"{name}: expected a path, not {type(value).__name__}") from None
-    text = os.fsdecode(text)
-    if "\0" in text or not text:
-        raise ValueError(f"{name}: {text!r} is no path")
-    return text
+    found = os.fsdecode(found)
+    if "\0" in found or not found:
+        raise ValueError(f"{name}: {found!r} is no path")
+    return found

@@ -116,9 +116,9 @@ def open_dataset(
             raise ValueError(f"{name}: {value} is not a finite number from 0 on")
     if fov >= 180:
         raise ValueError(f"fov: {fov:g} degrees are out of range: below 180")
-    for name, text in (("topic", topic), ("depth_topic", depth_topic)):
-        if not isinstance(text, (str, type(None))):
-            raise TypeError(f"{name}: expected its name, not {type(text).__name__}")
+    for name, topic_name in (("topic", topic), ("depth_topic", depth_topic)):
+        if topic_name is not None:
+            _check.text(name, topic_name)
     most = 2**62
     last = -1 if end is None else _check.whole("end", end, 1, most)
     recording = _sslam.open_recording(

@@ -27,10 +27,10 @@ def presets() -> List[Preset]:
 
 def parameters(preset: str = "structure") -> List[Parameter]:
     """Every parameter of a preset, with its default."""
-    return [Parameter(*values) for values in _sslam.preset_parameters(preset)]
+    return [Parameter(*values) for values in _sslam.preset_parameters(_check.text("preset", preset))]
 
 
-def as_camera(name: str, camera: Union[Camera, Path]) -> Camera:
+def as_camera(name: str, camera: object) -> Camera:
     if isinstance(camera, Camera):
         return camera
     if not isinstance(camera, (str, bytes, os.PathLike)):
@@ -45,12 +45,12 @@ def wide_lens(camera: Union[Camera, WideLens, Path]) -> Optional[WideLens]:
     return camera if isinstance(camera, WideLens) else None
 
 
-def parameter_values(given: Optional[Mapping[str, float]], words: Dict[str, float]) -> Dict[str, float]:
+def parameter_values(call: str, given: Optional[Mapping[str, float]], words: Dict[str, float]) -> Dict[str, float]:
     for name in words:
         if "__" not in name:
-            raise TypeError(f"System: no argument {name}; parameters of stages have '__' for each dot of their names")
+            raise TypeError(f"{call}: no argument {name}; parameters of stages have '__' for each dot of their names")
     if given is not None and not isinstance(given, Mapping):
         raise TypeError(f"parameters: expected a dict of numbers, not {type(given).__name__}")
     values = dict(given or {})
     values.update({name.replace("__", "."): value for name, value in words.items()})
-    return {str(name): _check.real(str(name), value) for name, value in values.items()}
+    return {_check.text("parameters", name): _check.real(str(name), value) for name, value in values.items()}

@@ -95,6 +95,12 @@ class Camera:
     def matrix(self) -> NDArray[numpy.float64]:
         """K, (3, 3)"""
 
+    def __eq__(self, other: object) -> bool: ...
+
+    def __hash__(self) -> int: ...
+
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
     def __repr__(self) -> str: ...
 
 class Lens:
@@ -301,7 +307,11 @@ class Tracking:
 
     def trajectory(self) -> tuple[Any, ...]: ...
 
+    def bridged(self) -> NDArray[numpy.float64]: ...
+
     def points(self) -> NDArray[numpy.float64]: ...
+
+    def cloud(self) -> tuple[Any, ...]: ...
 
     def lines(self) -> tuple[Any, ...]: ...
 
@@ -336,6 +346,47 @@ def relative_pose(pixels0: Annotated[NDArray[numpy.float64], dict(order='C', dev
 def translation_from_rotation(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Camera, arg4: float, arg5: float, arg6: int, /) -> tuple[Any, ...]: ...
 
 def refine_pose(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg3: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg4: Camera, arg5: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg6: float, /) -> tuple[Any, ...]: ...
+
+class NormalStatus(enum.IntEnum):
+    """Whether an image has normals, or why not."""
+
+    OK = 0
+
+    NO_INPUT = 1
+    """no depth image, or no file of normals"""
+
+    UNREADABLE = 2
+    """a file that cannot be decoded"""
+
+    WRONG_SIZE = 3
+    """the shape does not fit the camera's images"""
+
+    WRONG_TYPE = 4
+    """the wrong type of pixels"""
+
+    FACES_AWAY = 5
+    """most normals point away from the camera"""
+
+    TOO_SMALL = 6
+    """the image has too few pixels for the network"""
+
+    BAD_OUTPUT = 7
+    """
+    the network's values are not finite, not of unit length or not in their range
+    """
+
+    OUT_OF_RANGE = 8
+    """hardly any depth is in the range that is used"""
+
+    NO_EVIDENCE = 9
+    """too few pixels are planar, or their normals disagree"""
+
+def line_segments(arg0: Annotated[NDArray[Any], dict(device='cpu', writable=False)], arg1: bool, arg2: Mapping[str, float], /) -> tuple[Any, ...]: ...
+
+class Network:
+    def __init__(self, arg: str | os.PathLike[str], /) -> None: ...
+
+    def normals(self, arg0: Annotated[NDArray[Any], dict(device='cpu', writable=False)], arg1: bool, arg2: Camera, /) -> tuple[Any, ...]: ...
 
 def triangulate_points(arg0: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], arg2: Camera, arg3: float, arg4: float, /) -> tuple[Any, ...]: ...
 

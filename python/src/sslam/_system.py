@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, List, Mapping, Optional, Union
+from typing import Any, Callable, List, Mapping, NoReturn, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from ._callbacks import Callback, Callbacks, warn
 from ._errors import SettingsError
 from ._settings import Path, as_camera, parameter_values, presets, shipped_network, wide_lens
 from ._sslam import Camera, Result
-from ._types import Floats, Latest, Lines, Parameter, Planes, Trajectory
+from ._types import Cloud, Floats, Latest, Lines, Parameter, Planes, Trajectory
 from ._wide_lens import WideLens
 
 NormalsCallback = Callable[[NDArray[np.uint8]], Optional[NDArray[Any]]]
@@ -44,6 +44,9 @@ class System:
     after the frame and without a lock: they may call the system.
     """
 
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("System: cannot be copied or pickled; save() writes its map")
+
     def __init__(
         self,
         camera: Union[Camera, WideLens, Path],
@@ -60,15 +63,12 @@ class System:
         normals_sigma_deg: float = 5.0,
         **words: float,
     ) -> None:
-        values = parameter_values(parameters, words)
-        if not isinstance(preset, str):
-            raise TypeError(f"preset: expected its name, not {type(preset).__name__}")
-        if colours not in ("bgr", "rgb"):
-            raise ValueError(f"colours: {colours!r} is not known; use 'bgr' or 'rgb'")
+        values = parameter_values("System", parameters, words)
+        _check.text("preset", preset)
         sigma = _check.real("normals_sigma_deg", normals_sigma_deg)
         if not 0 <= sigma < 90:
             raise ValueError(f"normals_sigma_deg: {sigma:g} is out of range: 0 to 90")
-        self._rgb = colours == "rgb"
+        self._rgb = _check.is_rgb(colours)
         self._callbacks = Callbacks()
         self._normals_of: Optional[NormalsCallback] = None
         self._lens = wide_lens(camera)
@@ -78,9 +78,9 @@ class System:
             self._source_of(normals, preset),
             values,
             _check.whole("seed", seed, 0, 2**64 - 1),
-            bool(live),
+            _check.flag("live", live),
             _check.whole("longest_side", longest_side, 0),
-            bool(final_pass),
+            _check.flag("final_pass", final_pass),
             _check.positive("depth_factor", depth_factor),
             sigma,
         )
@@ -92,7 +92,7 @@ class System:
         if normals is not None and not isinstance(normals, str):
             raise TypeError(f"normals: expected a str, a function or None, not {type(normals).__name__}")
         if normals not in (None, "onnx", "on-demand"):
-            return str(normals)
+            return _check.text("normals", normals)
         wanted = normals is not None or any(p.uses_normals for p in presets() if p.name == preset)
         shipped = shipped_network()
         if wanted and shipped is not None:
@@ -132,8 +132,7 @@ class System:
         """
         pixels = _check.pixels("image", image, (np.uint8,), (1, 3, 4))
         when = _check.real("stamp", stamp)
-        if not isinstance(name, str):
-            raise TypeError(f"name: expected a str, not {type(name).__name__}")
+        _check.text("name", name)
         if depth is not None:
             depth = _check.pixels("depth", depth, (np.uint16, np.float32), (1,))
             if depth.shape != pixels.shape[:2]:
@@ -183,6 +182,10 @@ class System:
         """The points of the map, (N, 3), world."""
         return self._tracking.points()
 
+    def cloud(self) -> Cloud:
+        """The points with their colours."""
+        return Cloud(*self._tracking.cloud())
+
     def lines(self) -> Lines:
         return Lines(*self._tracking.lines())
 
@@ -196,6 +199,11 @@ class System:
     def trajectory(self) -> Trajectory:
         """The poses of all tracked frames in the current map."""
         return Trajectory(*self._tracking.trajectory())
+
+    def bridged(self) -> Floats:
+        """(N,), seconds: stamps of those poses of trajectory() that finish() bridged: their rotation was measured from
+        frame to frame, their position is interpolated."""
+        return self._tracking.bridged()
 
     def latest(self) -> Latest:
         """The latest pose; never waits for a frame that is being tracked."""
@@ -215,7 +223,7 @@ class System:
 
     def localise_only(self, on: bool = True) -> None:
         """True: the map does not change: no keyframe is made and no map begun. False: it grows again."""
-        self._tracking.localise_only(bool(on))
+        self._tracking.localise_only(_check.flag("on", on))
 
     def parameters(self) -> List[Parameter]:
         """Every parameter with its current value."""

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._sslam import State, Status
+from ._sslam import Camera, NormalStatus, State, Status
 
 Floats = NDArray[np.float64]
 
@@ -26,6 +26,13 @@ class Trajectory(NamedTuple):
     def positions(self) -> Floats:
         """(N, 3), positions of the camera in the world"""
         return self.poses[:, :3, 3]
+
+
+class Cloud(NamedTuple):
+    points: Floats
+    """(N, 3), world"""
+    colours: NDArray[np.uint8]
+    """(N, 3), red, green, blue, as the keyframes' images show each point; 128 each where none does"""
 
 
 class Lines(NamedTuple):
@@ -137,6 +144,25 @@ class Translation(NamedTuple):
     """radians, median of the inliers"""
     inliers: NDArray[np.bool_]
     """(N,)"""
+
+
+class LineSegments(NamedTuple):
+    segments: Floats
+    """(N, 4), ends u0 v0 u1 v1 in pixels of the image, longest first; the brighter side is on the left of the way"""
+    sigma: Floats
+    """(N,), pixels: standard deviation of an end across its segment"""
+
+
+class ImageNormals(NamedTuple):
+    """The other fields are None unless the status is OK."""
+
+    status: NormalStatus
+    normals: Optional[NDArray[np.float32]]
+    """(h, w, 3), unit, in the camera frame, towards the camera; zero where there is none"""
+    planar: Optional[NDArray[np.float32]]
+    """(h, w), probability of lying on a plane; None if the network has no such output"""
+    camera: Optional[Camera]
+    """of these pixels, without distortion"""
 
 
 class Points(NamedTuple):

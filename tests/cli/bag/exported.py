@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `sslam export --format mcap` writes, read back by other programs: the case `export` of bag.py."""
+import csv
+
 import mcap.reader
 import mcap_ros2.decoder
 import numpy as np
@@ -51,7 +53,12 @@ def check(sslam):
         assert np.allclose([colour.r, colour.g, colour.b, colour.a], [*row[3:] / 255, 1], atol=1e-3)
     (camera,) = [ros for _, _, ros in found["/camera_info"]]
     assert (camera.width, camera.height) == (320, 240) and camera.k[0] == camera.p[0] == sslam.room.camera["fx"]
-    # What was exported is a recording without images.
+    states = [ros.status[0] for _, _, ros in found["/diagnostics"]]
+    with open(out / "frames.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [state.message.split(":")[0] for state in states] == [row["state"] for row in rows]
+    assert {value.key: value.value for value in states[-1].values}["point_inliers"] == rows[-1]["point_inliers"]
+    # What was exported is a recording without images, since this run kept none.
     assert "holds no images" in sslam.run(out / "mcap" / "run.mcap", "again", code=1)[1]
 
 

@@ -5,6 +5,7 @@
 Usage: foxglove.py PROGRAM PACKAGES CASE   (stream, refusals, limits, interrupted; PACKAGES: folder with node_modules)
 """
 import contextlib
+import csv
 import json
 import pathlib
 import shutil
@@ -65,7 +66,10 @@ def check_stream(program, packages, scratch):
     # Something to warn of, in the midst and after the last frame.
     sorted((room / "rgb").iterdir())[30].write_bytes(b"no image")
     scale = "--scale", "known=1@30:50"
-    call(program, *track(room, plain), *scale, "--quiet")
+    recorded = scratch / "walk.mcap"
+    call(program, *track(room, plain), *scale, "--quiet", "--record", recorded)
+    call(program, "export", plain, "--format", "mcap")
+    assert recorded.read_bytes() == (plain / "mcap" / "run.mcap").read_bytes()
     run = StreamedRun(program, *track(room, watched), *scale)
     clients = []
     for protocol in PROTOCOLS:
@@ -77,12 +81,13 @@ def check_stream(program, packages, scratch):
     idle = Client(run.port, f"/{run.token}", receive=4096)
     gone = Client(run.port, f"/{run.token}")
     for client in (idle, gone):
-        client.send(json.dumps({"op": "subscribe", "subscriptions": [{"id": i, "channelId": i} for i in range(8)]}))
+        client.send(json.dumps({"op": "subscribe", "subscriptions": [{"id": i, "channelId": i} for i in range(10)]}))
     gone.close()
     assert run.rest() == 0
     for name in KEPT:
         assert (plain / name).read_bytes() == (watched / name).read_bytes(), name
     call(program, "export", watched, "--format", "mcap")
+    check_recording(packages, watched)
     for client, protocol in zip(clients, PROTOCOLS):
         answer, _ = client.communicate()
         assert client.returncode == 0
@@ -91,7 +96,7 @@ def check_stream(program, packages, scratch):
 
 def compare(got, protocol, room, out):
     assert got["protocol"] == protocol and got["code"] == 1001 and got["info"]["name"].startswith("sslam "), got["info"]
-    assert got["types"]["/tf"] == ["tf2_msgs/msg/TFMessage", "cdr", "ros2msg"] and len(got["types"]) == 8, got["types"]
+    assert got["types"]["/tf"] == ["tf2_msgs/msg/TFMessage", "cdr", "ros2msg"] and len(got["types"]) == 10, got["types"]
     found = {}
     for entry in got["messages"]:
         found.setdefault(entry["topic"], []).append(entry)
@@ -125,9 +130,50 @@ def compare(got, protocol, room, out):
     assert len(images) > 1 and all(entry["message"]["data"] == [320, 240] for entry in images), len(images)
     stamps = [nanoseconds(entry["message"]["header"]["stamp"]) for entry in images]
     assert stamps == sorted(set(stamps)) and set(stamps) <= frames
+    rows = frame_rows(out)
+    assert len(found["/diagnostics"]) == len(rows)
+    for entry, row in zip(found["/diagnostics"], rows):
+        same_state(entry, row, ignored=("bridged",))  # which is known after the last frame
     logs = [entry["message"] for entry in found["/rosout"]]
     assert all(log["level"] == 30 for log in logs) and [log["msg"] for log in logs] == metrics["warnings"], logs
     assert len(logs) == 2 and "frame 30 has no pose" in logs[1]["msg"], logs
+
+
+def frame_rows(out):
+    with open(out / "frames.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def same_state(entry, row, ignored=()):
+    (status,) = entry["message"]["status"]
+    assert int(entry["time"]) == nanoseconds(entry["message"]["header"]["stamp"]) == round(float(row["stamp"]) * 1e9)
+    assert status["message"] == ": ".join(filter(None, (row["state"], row["reason"]))), (status, row)
+    assert status["level"] == {"lost": 2, "initialising": 1, "uncertain": 1}.get(row["state"], 0), (status, row)
+    told = {value["key"]: value["value"] for value in status["values"] if value["key"] not in ignored}
+    assert told == {key: value for key, value in row.items() if key not in ("stamp", "state", "reason", *ignored)}, (told, row)
+
+
+def check_recording(packages, out):
+    """run.mcap by Foxglove's own reader: poses, and the state and the pictures of each frame."""
+    done = subprocess.run(["node", HERE / "recording.mjs", packages, out / "mcap" / "run.mcap"], stdout=subprocess.PIPE, text=True, check=True)
+    got, found = json.loads(done.stdout), {}
+    for entry in got["messages"]:
+        found.setdefault(entry["topic"], []).append(entry)
+    assert int(got["count"]) == len(got["messages"]) and got["chunks"] > 0
+    final = list(poses(out / "trajectory.txt"))
+    assert len(found["/tf"]) == len(final) > 40
+    for entry, (stamp, position, rotation) in zip(found["/tf"], final):
+        (transform,) = entry["message"]["transforms"]
+        assert int(entry["time"]) == stamp
+        same_pose(transform["transform"]["translation"], transform["transform"]["rotation"], position, rotation)
+    rows = frame_rows(out)
+    assert len(found["/diagnostics"]) == len(rows)
+    for entry, row in zip(found["/diagnostics"], rows):
+        same_state(entry, row)
+    for topic in ("/image/compressed", "/overlay/compressed"):
+        assert [entry["time"] for entry in found[topic]] == [entry["time"] for entry in found["/diagnostics"]], topic
+        assert all(entry["message"]["data"] == [304, 228] for entry in found[topic]), topic
+    assert "/normals/compressed" not in found and "/mesh" not in found
 
 
 def nanoseconds_of(line):
@@ -148,6 +194,7 @@ def exported(path):
 
 def check_refusals(program, packages, scratch):
     room, out = make_room(program, scratch), scratch / "out"
+    refused(program, *track(room, out), "--quiet", "--record", scratch / "none" / "walk.mcap", words="walk.mcap: there is no folder ")
     with contextlib.closing(socket.create_server(("127.0.0.1", 0))) as taken:
         port = taken.getsockname()[1]
         refused(program, *track(room, out), "--quiet", "--foxglove", port, words=f"--foxglove 127.0.0.1:{port}: is in use by another program")
@@ -178,12 +225,12 @@ def check_refusals(program, packages, scratch):
     assert client.open and PROTOCOLS[0].encode() in client.head, client.head
     assert client.receive()["op"] == "serverInfo"
     channels = client.receive()["channels"]
-    assert [channel["id"] for channel in channels] == list(range(8))
+    assert [channel["id"] for channel in channels] == list(range(10))
     for message, words in ((b"{", "no JSON object"), (b"[]", "no JSON object"), (b'{"op": 3}', "no JSON object"),
                            (b'{"op": "subscribe"}', "lacks the list subscriptions"),
                            (b'{"op": "subscribe", "subscriptions": [{"id": 1}]}', "an entry lacks channelId"),
                            (b'{"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 0}]}', "an id is no number"),
-                           (b'{"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 8}]}', "there is no channel 8"),
+                           (b'{"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 10}]}', "there is no channel 10"),
                            (b'{"op": "unsubscribe", "subscriptionIds": [7]}', "there is no subscription 7"),
                            (b"[" * 60000, "nested too deeply")):
         client.send(message.decode())

@@ -55,6 +55,12 @@ inline constexpr std::array kDefinitions{
         "sensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\n"
         "string text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\n"
         "bool mesh_use_embedded_materials\n"},
+    MessageDefinition{"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
+    MessageDefinition{"diagnostic_msgs/DiagnosticStatus",
+                      "byte level\nstring name\nstring message\nstring hardware_id\n"
+                      "diagnostic_msgs/KeyValue[] values\n"},
+    MessageDefinition{"diagnostic_msgs/DiagnosticArray",
+                      "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n"},
     MessageDefinition{"rcl_interfaces/Log",
                       "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\n"
                       "string function\nuint32 line\n"},

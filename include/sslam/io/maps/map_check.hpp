@@ -106,7 +106,8 @@ void check_links(const Map<double>& map, const Landmarks& landmarks, Seen seen) 
 inline void check_map(const Map<double>& map) {
   using namespace map_check_detail;
   const int axes = 3 * static_cast<int>(map.world_from_manhattan.size());
-  demand(!map.keyframes.empty() && map.keyframes.front().alive());
+  if (map.keyframes.empty()) throw Error("is an empty map: it was saved before anything was tracked");
+  demand(map.keyframes.front().alive());
   check_parents(map);
   for (std::size_t k = 0; k < map.keyframes.size(); ++k) check_keyframe(map, k, axes);
   check_landmarks(map, map.points, [](const Keyframe<double>& kf) { return kf.frame.points.size(); });
