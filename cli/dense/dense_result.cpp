@@ -39,8 +39,9 @@ dense::NormalImage unpack_normals(const KeyframePicture& picture) {
 
 class DenseRun {
  public:
-  DenseRun(const Map<double>& map, const KeyframePictures& pictures, const Camera<double>& camera)
-      : map_(map), pictures_(pictures), camera_(camera) {}
+  DenseRun(const Map<double>& map, std::size_t first, const KeyframePictures& pictures,
+           const Camera<double>& camera)
+      : map_(map), first_(first), pictures_(pictures), camera_(camera) {}
 
   [[nodiscard]] DenseResult run() {
     WallTimer timer;
@@ -65,9 +66,10 @@ class DenseRun {
  private:
   void gather(DenseResult& result) {
     const double scale = std::min(1.0, static_cast<double>(kWidth) / camera_.width);
-    for (const Keyframe<double>& keyframe : map_.keyframes) {
+    for (std::size_t k = first_; k < map_.keyframes.size(); ++k) {
+      const Keyframe<double>& keyframe = map_.keyframes[k];
       if (!keyframe.alive()) continue;
-      const KeyframePicture* const picture = pictures_.of(keyframe);
+      const KeyframePicture* const picture = pictures_.of(keyframe.frame);
       if (picture == nullptr) continue;
       const cv::Mat image = straight_image(*picture);
       cv::Mat grey;
@@ -76,6 +78,8 @@ class DenseRun {
       greys_.push_back(grey.clone());
       views_.push_back(dense::view_of_keyframe(map_, keyframe, scale));
       views_.back().grey = view_of<std::uint8_t>(greys_.back());
+      seen_.push_back(seen_of(*picture, greys_.back().size()));
+      views_.back().seen = view_of<std::uint8_t>(seen_.back());
       views_.back().normals = unpack_normals(*picture);
       ids_.push_back(keyframe.id);
       packed_.push_back(picture);
@@ -86,6 +90,39 @@ class DenseRun {
     scale_ = scale;
     if (!views_.empty() && !result.colour)
       result.warnings.emplace_back("--dense: the images have no colour: the model is grey");
+  }
+
+  // Where the image shows the world: what the mask leaves, as far as the lens sees. Less a rim, so that the
+  // patch around a pixel is whole. Empty: everywhere.
+  [[nodiscard]] cv::Mat seen_of(const KeyframePicture& picture, cv::Size size) {
+    if (!seen_.empty() && picture.mask == packed_.back()->mask) return seen_.back();
+    cv::Mat seen = picture.mask.empty() ? cv::Mat() : cv::imdecode(picture.mask, cv::IMREAD_GRAYSCALE) != 0;
+    if (!camera_.distortion.is_identity()) {
+      const cv::Mat lens = lens_view();
+      seen = seen.empty() ? lens : undistorter_.undistort(seen, camera_) & lens;
+    }
+    if (seen.empty()) return seen;
+    if (seen.size() != size) cv::resize(seen, seen, size, 0, 0, cv::INTER_AREA);
+    constexpr int kRim = 2 * dense::Patch::kReach + 1;
+    cv::Mat whole;
+    cv::erode(seen == 255, whole,
+              cv::Mat::ones(kRim, kRim, CV_8UC1));  // a pixel left out in part is left out
+    return cv::countNonZero(whole) == static_cast<int>(whole.total()) ? cv::Mat() : whole;
+  }
+
+  // The pixels of the straight image that the lens sees; beyond, the undistorter repeats the border. The way
+  // back excludes the far field, which the distortion model folds into the image.
+  [[nodiscard]] cv::Mat lens_view() const {
+    cv::Mat seen(camera_.height, camera_.width, CV_8UC1, cv::Scalar(0));
+    for (int v = 0; v < seen.rows; ++v)
+      for (int u = 0; u < seen.cols; ++u) {
+        const Vec2<double> straight(u, v), pixel = camera_.distort_pixel(straight);
+        const bool inside = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= camera_.width - 1 &&
+                            pixel.y() <= camera_.height - 1 &&
+                            (camera_.undistort_pixel(pixel) - straight).norm() < 0.5;
+        if (inside) seen.at<std::uint8_t>(v, u) = 255;
+      }
+    return seen;
   }
 
   [[nodiscard]] static int rounded(double x) { return static_cast<int>(std::lround(x)); }
@@ -101,11 +138,12 @@ class DenseRun {
   }
 
   const Map<double>& map_;
+  std::size_t first_;
   const KeyframePictures& pictures_;
   const Camera<double>& camera_;
   Undistorter undistorter_;
   double scale_ = 1;
-  std::vector<cv::Mat> greys_;
+  std::vector<cv::Mat> greys_, seen_;
   std::vector<dense::DenseView> views_;
   std::vector<KeyframeId> ids_;
   std::vector<const KeyframePicture*> packed_;
@@ -113,9 +151,9 @@ class DenseRun {
 
 }  // namespace
 
-DenseResult make_dense(const Map<double>& map, const KeyframePictures& pictures,
+DenseResult make_dense(const Map<double>& map, std::size_t first, const KeyframePictures& pictures,
                        const Camera<double>& camera) {
-  return DenseRun(map, pictures, camera).run();
+  return DenseRun(map, first, pictures, camera).run();
 }
 
 void write_dense(const std::filesystem::path& folder, const DenseResult& result) {

@@ -26,10 +26,10 @@ struct DenseResult {
   [[nodiscard]] bool empty() const noexcept { return model.planes.empty(); }
 };
 
-// From the keyframes whose pictures are there; `camera`: that of the pictures. Empty, with a line that says
-// why, where there are no planes.
-[[nodiscard]] DenseResult make_dense(const Map<double>& map, const KeyframePictures& pictures,
-                                     const Camera<double>& camera);
+// From the keyframes from `first` on whose pictures are there; `camera`: that of the pictures. Empty, with a
+// line that says why, where there are no planes.
+[[nodiscard]] DenseResult make_dense(const Map<double>& map, std::size_t first,
+                                     const KeyframePictures& pictures, const Camera<double>& camera);
 
 // Both files; none of an empty result. Throws Error.
 void write_dense(const std::filesystem::path& folder, const DenseResult& result);

@@ -5,19 +5,25 @@
 
 namespace sslam::cli {
 
-void KeyframePictures::note(const Frame<double>& frame, const cv::Mat& picture, const cv::Mat& normals,
-                            const Pinhole<double>& normal_pinhole) {
+void KeyframePictures::note(const Frame<double>& frame, const cv::Mat& picture, const cv::Mat& mask) {
   constexpr int kQuality = 95;
   if (picture.empty() || picture.depth() != CV_8U) return;
   KeyframePicture& kept = pictures_[{frame.index, frame.stamp}];
   cv::imencode(".jpg", picture, kept.image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   kept.colour = picture.channels() >= 3;
-  kept.normal_pinhole = normal_pinhole;
-  if (!normals.empty()) cv::imencode(".png", normals, kept.normals);
+  if (!mask.empty()) cv::imencode(".png", mask, kept.mask);
 }
 
-const KeyframePicture* KeyframePictures::of(const Keyframe<double>& keyframe) const {
-  const auto found = pictures_.find({keyframe.frame.index, keyframe.frame.stamp});
+void KeyframePictures::note_normals(const Frame<double>& frame, const cv::Mat& normals,
+                                    const Pinhole<double>& normal_pinhole) {
+  const auto found = pictures_.find({frame.index, frame.stamp});
+  if (found == pictures_.end() || normals.empty()) return;
+  found->second.normal_pinhole = normal_pinhole;
+  cv::imencode(".png", normals, found->second.normals);
+}
+
+const KeyframePicture* KeyframePictures::of(const Frame<double>& frame) const {
+  const auto found = pictures_.find({frame.index, frame.stamp});
   return found == pictures_.end() ? nullptr : &found->second;
 }
 

@@ -15,17 +15,21 @@ namespace sslam::cli {
 struct KeyframePicture {
   std::vector<unsigned char> image;    // JPEG, as the lens made it, of the size that is worked on
   bool colour = false;                 // it has three channels
+  std::vector<unsigned char> mask;     // PNG of the same size: 0 where it is no world; empty: all is used
   std::vector<unsigned char> normals;  // PNG, as small_normal_picture has them; empty: none
   Pinhole<double> normal_pinhole;      // of their pixels
 };
 
 class KeyframePictures {
  public:
-  void note(const Frame<double>& frame, const cv::Mat& picture, const cv::Mat& normals,
-            const Pinhole<double>& normal_pinhole);
+  // `mask` may be empty. A picture that is none is not noted.
+  void note(const Frame<double>& frame, const cv::Mat& picture, const cv::Mat& mask);
+  // Of a frame whose picture has been noted; they may be empty.
+  void note_normals(const Frame<double>& frame, const cv::Mat& normals,
+                    const Pinhole<double>& normal_pinhole);
 
-  // Null where the keyframe is of an earlier run.
-  [[nodiscard]] const KeyframePicture* of(const Keyframe<double>& keyframe) const;
+  // Null where none was noted.
+  [[nodiscard]] const KeyframePicture* of(const Frame<double>& frame) const;
 
  private:
   std::map<std::pair<std::int64_t, double>, KeyframePicture> pictures_;  // by index and stamp of the frame

@@ -90,6 +90,9 @@ class RunPass {
 
   void tell_health() { progress_.tell(health_json(recorder.outcome)); }
 
+  // The keyframes before this one are of the map that the run goes on in.
+  [[nodiscard]] std::size_t first_keyframe() const noexcept { return known_keyframes_; }
+
   // A checkpoint of this run lies in its folder.
   [[nodiscard]] bool has_checkpoint() const { return kept_ || !recorder.outcome.resumed_at.empty(); }
 

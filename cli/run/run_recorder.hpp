@@ -35,9 +35,11 @@ class RunRecorder : public Observer {
   }
   void keyframe_made(const FrameEvent& event) override {
     const Frame<double>& frame = event.frame.frame;
-    colours.note(frame, event.input.picture, camera_);
-    if (keep_pictures)
-      pictures.note(frame, event.input.picture, event.input.normal_picture, event.input.normal_pinhole);
+    const Extraction& input = event.input;
+    colours.note(frame, input.picture, camera_);
+    if (!keep_pictures) return;
+    pictures.note(frame, input.picture, input.picture_mask);
+    pictures.note_normals(frame, input.normal_picture, input.normal_pinhole);
   }
   void warning(const std::string& line) override { outcome.warnings.push_back(line); }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/dense/dense_result.hpp"
+#include "cli/dense/missing_pictures.hpp"
 #include "cli/input/shipped_model.hpp"
 #include "cli/report.hpp"
 #include "cli/results/mcap_export.hpp"
@@ -29,10 +30,15 @@ std::string last_reason_of(const RunOutcome& outcome) {
 }
 
 // What it has to say is a warning of the run.
-void add_dense(RunPass& pass) {
+void add_dense(const RunInput& input, RunPass& pass) {
   RunOutcome& outcome = pass.recorder.outcome;
+  if (!input.source)
+    read_missing_pictures(outcome.map, pass.first_keyframe(),
+                          {input.dataset, input.masks, input.view ? &*input.view : nullptr,
+                           pass.context.camera, pass.system.camera()},
+                          pass.recorder.pictures);
   outcome.dense = std::make_shared<const DenseResult>(
-      make_dense(outcome.map, pass.recorder.pictures, pass.system.camera()));
+      make_dense(outcome.map, pass.first_keyframe(), pass.recorder.pictures, pass.system.camera()));
   outcome.warnings.insert(outcome.warnings.end(), outcome.dense->warnings.begin(),
                           outcome.dense->warnings.end());
 }
@@ -155,7 +161,7 @@ void WholeRun::follow_up() {
                    is_metric_map(settings_.map)},
                   outcome);
   if (stream_) stream_->finish(outcome);
-  if (settings_.dense) add_dense(*pass_);
+  if (settings_.dense) add_dense(input_, *pass_);
   const std::vector<std::string>& of_camera = calibration_->warnings();
   if (stream_) {
     for (const std::string& line : of_camera) stream_->warning(line);

@@ -24,6 +24,7 @@ TEST_CASE("run --dense writes a model that viewers can open, and a run without i
   REQUIRE(metrics["settings"]["dense"] == true);
   REQUIRE(metrics["dense"]["planes"].size() >= 3);
   REQUIRE(metrics["dense"]["area"].get<double>() > 0);
+  CHECK(metrics["dense"]["keyframes"] == metrics["keyframes"]);  // the first one of the map as well
   REQUIRE(metrics["files"].contains("model.glb"));
 
   const Glb glb = read_glb(copy.out / "model.glb");

@@ -31,10 +31,16 @@ struct DenseView {
   SE3<double> cam_from_world;
   Pinhole<double> pinhole;        // of `grey`
   ImageView<std::uint8_t> grey;   // lens distortion taken out; its owner keeps it alive
+  ImageView<std::uint8_t> seen;   // of its size: 0 where the image is no world; empty: it is everywhere
   NormalImage normals;            // empty: none
   std::vector<DepthMark> marks;   // pixels of `grey`
   std::vector<std::size_t> near;  // other views that see the same things from elsewhere
 
+  // At the pixel nearest to a place in the image.
+  [[nodiscard]] bool sees(const Vec2<float>& place) const noexcept {
+    return seen.width() == 0 ||
+           seen.at(static_cast<int>(place.x() + 0.5F), static_cast<int>(place.y() + 0.5F)) != 0;
+  }
   [[nodiscard]] Vec3<double> centre() const noexcept { return cam_from_world.inverse().translation; }
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -60,10 +61,6 @@ class LabelSmoother {
   }
 
  private:
-  struct Crossing {
-    float inverse_depth, cost;
-  };
-
   // Along one of eight directions, in an order in which the block before it is done.
   void sweep(const CostGrid& costs, const ImageView<std::uint8_t>& grey, int block, int dx, int dy) {
     path_.assign(costs.cost.size(), 0);
@@ -80,25 +77,42 @@ class LabelSmoother {
     }
   }
 
+  // Loops without branches: compilers make vectors of them. What is not seen costs kNoCost, and still does
+  // after it.
   void pass(const CostGrid& costs, std::size_t before, std::size_t here, float change) {
     const std::size_t labels = costs.labels();
     const float* const last = &path_[before];
-    const float least = *std::min_element(last, last + labels);
+    const float* const inverse = &costs.inverse_depth[here];
+    const float least = least_of(last, labels);
     const auto crease = static_cast<float>(options.crease);
     const auto same = static_cast<float>(options.same_depth);
-    good_.clear();  // planes to come from at a crease: the others cost more than any change of plane
-    for (std::size_t m = 0; m + 1 < labels; ++m)
-      if (last[m] + crease < least + change)
-        good_.push_back({costs.inverse_depth[here + m], last[m] + crease});
+    best_.resize(labels);
     for (std::size_t l = 0; l < labels; ++l) {
-      if (costs.cost[here + l] == kNoCost) continue;
-      float best = std::min(last[l], least + change);
-      const float inverse = costs.inverse_depth[here + l];
-      if (l + 1 < labels && best > least + crease)
-        for (const Crossing& from : good_)
-          if (std::abs(from.inverse_depth - inverse) < same * inverse) best = std::min(best, from.cost);
-      path_[here + l] += best - least;
+      const float changed = least + change;
+      best_[l] = last[l] < changed ? last[l] : changed;
     }
+    // Planes to come from at a crease: the others cost more than any change of plane. `none` has no depth.
+    for (std::size_t m = 0; m + 1 < labels; ++m) {
+      const float from = inverse[m], cost = last[m] + crease;
+      if (!(cost < least + change)) continue;
+      for (std::size_t l = 0; l < labels; ++l) {
+        const float reached = std::abs(from - inverse[l]) < same * inverse[l] ? cost : kNoCost;
+        best_[l] = reached < best_[l] ? reached : best_[l];
+      }
+    }
+    float* const path = &path_[here];
+    for (std::size_t l = 0; l < labels; ++l) path[l] += best_[l] - least;
+  }
+
+  [[nodiscard]] static float least_of(const float* values, std::size_t count) {
+    constexpr std::size_t kLanes = 8;
+    std::array<float, kLanes> least;
+    least.fill(kNoCost);
+    std::size_t i = 0;
+    for (; i + kLanes <= count; i += kLanes)
+      for (std::size_t k = 0; k < kLanes; ++k) least[k] = values[i + k] < least[k] ? values[i + k] : least[k];
+    for (; i < count; ++i) least[0] = std::min(least[0], values[i]);
+    return *std::min_element(least.begin(), least.end());
   }
 
   // By the largest step of grey on the way from one block's centre to the next.
@@ -115,8 +129,7 @@ class LabelSmoother {
     return static_cast<float>(options.change * (1 - share * (1 - options.at_edge)));
   }
 
-  std::vector<float> path_, total_;
-  std::vector<Crossing> good_;
+  std::vector<float> path_, total_, best_;
 };
 
 }  // namespace sslam::dense

@@ -42,24 +42,15 @@ struct CostGrid {
   }
 };
 
-// A patch of the view, without its mean.
+// A patch of the view, without its mean. The arrays are longer than the patch, by zeros, so that whole
+// vectors of floats are computed.
 struct Patch {
-  static constexpr int kReach = 2, kSize = (2 * kReach + 1) * (2 * kReach + 1);
-  std::array<float, kSize> value;
+  static constexpr int kReach = 2, kSide = 2 * kReach + 1, kSize = kSide * kSide, kRoom = (kSize + 7) / 8 * 8;
+  std::array<float, kRoom> value{};
   float power = 0;  // sum of squares
 };
 
 namespace detail {
-
-inline void centre_patch(Patch& patch) {
-  float mean = 0;
-  for (const float v : patch.value) mean += v / Patch::kSize;
-  patch.power = 0;
-  for (float& v : patch.value) {
-    v -= mean;
-    patch.power += v * v;
-  }
-}
 
 // Whether there are four pixels around a place.
 [[nodiscard]] inline bool holds(const ImageView<std::uint8_t>& image, float x, float y) {
@@ -67,14 +58,78 @@ inline void centre_patch(Patch& patch) {
          y < static_cast<float>(image.height() - 1);
 }
 
-// Grey value between pixels, of a place that the image holds.
-[[nodiscard]] inline float sample(const ImageView<std::uint8_t>& image, float x, float y) {
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const std::uint8_t *a = image.row(y0) + x0, *b = image.row(y0 + 1) + x0;
-  const float top = static_cast<float>(a[0]) + fx * static_cast<float>(a[1] - a[0]);
-  const float bottom = static_cast<float>(b[0]) + fx * static_cast<float>(b[1] - b[0]);
-  return top + fy * (bottom - top);
+// The places of a patch: its centre, and how the image moves with each of its two coordinates.
+struct PatchPlaces {
+  Vec2<float> centre, along_x, along_y;
+
+  [[nodiscard]] Vec2<float> corner(int dx, int dy) const {
+    return centre + static_cast<float>(dx * Patch::kReach) * along_x +
+           static_cast<float>(dy * Patch::kReach) * along_y;
+  }
+  // Whether the image holds all of them: they lie between the corners.
+  [[nodiscard]] bool in(const ImageView<std::uint8_t>& image) const {
+    for (const int dy : {-1, 1})
+      for (const int dx : {-1, 1})
+        if (const Vec2<float> place = corner(dx, dy); !holds(image, place.x(), place.y())) return false;
+    return true;
+  }
+};
+
+// Offsets of a patch's pixels, row by row; 0 in the room behind them.
+inline constexpr auto kPatchX = [] {
+  std::array<float, Patch::kRoom> x{};
+  for (int i = 0; i < Patch::kSize; ++i)
+    x[static_cast<std::size_t>(i)] = static_cast<float>(i % Patch::kSide - Patch::kReach);
+  return x;
+}();
+inline constexpr auto kPatchY = [] {
+  std::array<float, Patch::kRoom> y{};
+  for (int i = 0; i < Patch::kSize; ++i)
+    y[static_cast<std::size_t>(i)] = static_cast<float>(i / Patch::kSide - Patch::kReach);
+  return y;
+}();
+
+// Grey values between pixels, of places that the image holds; 0 in the room behind them.
+inline void sample(const ImageView<std::uint8_t>& image, const PatchPlaces& places,
+                   std::array<float, Patch::kRoom>& value) {
+  std::array<float, Patch::kRoom> fx, fy;
+  std::array<std::int32_t, Patch::kRoom> column, row, upper, lower;
+  for (std::size_t i = 0; i < Patch::kRoom; ++i) {
+    const float x = places.centre.x() + places.along_x.x() * kPatchX[i] + places.along_y.x() * kPatchY[i],
+                y = places.centre.y() + places.along_x.y() * kPatchX[i] + places.along_y.y() * kPatchY[i];
+    column[i] = static_cast<std::int32_t>(x);
+    row[i] = static_cast<std::int32_t>(y);
+    fx[i] = x - static_cast<float>(column[i]);
+    fy[i] = y - static_cast<float>(row[i]);
+  }
+  for (std::size_t i = 0; i < Patch::kRoom; ++i) {  // two neighbours in one number
+    const std::uint8_t *const a = image.row(row[i]) + column[i], *const b = a + image.stride();
+    upper[i] = a[0] | a[1] << 8;
+    lower[i] = b[0] | b[1] << 8;
+  }
+  for (std::size_t i = 0; i < Patch::kRoom; ++i) {
+    const auto a0 = static_cast<float>(upper[i] & 255), a1 = static_cast<float>(upper[i] >> 8),
+               b0 = static_cast<float>(lower[i] & 255), b1 = static_cast<float>(lower[i] >> 8);
+    const float top = a0 + fx[i] * (a1 - a0), bottom = b0 + fx[i] * (b1 - b0);
+    value[i] = top + fy[i] * (bottom - top);
+  }
+  for (std::size_t i = Patch::kSize; i < Patch::kRoom; ++i) value[i] = 0;
+}
+
+// In four parts at once, whose order does not depend on the compiler.
+template <class Term>
+[[nodiscard]] float sum_of_terms(const Term& term) {
+  constexpr std::size_t kLanes = 4;
+  std::array<float, kLanes> sums{};
+  for (std::size_t i = 0; i < Patch::kRoom; i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k) sums[k] += term(i + k);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+inline void centre_patch(Patch& patch) {
+  const float mean = sum_of_terms([&](std::size_t i) { return patch.value[i]; }) / Patch::kSize;
+  for (std::size_t i = 0; i < Patch::kSize; ++i) patch.value[i] -= mean;
+  patch.power = sum_of_terms([&](std::size_t i) { return patch.value[i] * patch.value[i]; });
 }
 
 }  // namespace detail
@@ -100,9 +155,8 @@ inline void centre_patch(Patch& patch) {
 // Squared difference of the two patches over what they hold, noise and all: 0 where they agree, 1 where they
 // have nothing in common, little where neither has any texture. False where the other view does not see the
 // patch. The homography is taken as affine within it.
-[[nodiscard]] inline bool patch_cost(const Patch& patch, const ImageView<std::uint8_t>& other,
-                                     const Mat3<double>& h, const Vec2<double>& centre, double noise,
-                                     float& cost) {
+[[nodiscard]] inline bool patch_cost(const Patch& patch, const DenseView& other, const Mat3<double>& h,
+                                     const Vec2<double>& centre, double noise, float& cost) {
   const Vec3<double> x = h * Vec3<double>(centre.x(), centre.y(), 1);
   if (!(x.z() > 1e-9)) return false;
   const double w = 1 / x.z(), u = x.x() * w, v = x.y() * w;
@@ -112,28 +166,18 @@ inline void centre_patch(Patch& patch) {
              vy = static_cast<float>((h(1, 1) - v * h(2, 1)) * w);
   const float scale = std::abs(ux * vy - uy * vx);
   if (!(scale > 0.15F && scale < 8)) return false;  // too far from the patch's own resolution
-  const auto at = [&](int dx, int dy) {
-    const auto fx = static_cast<float>(dx), fy = static_cast<float>(dy);
-    return Vec2<float>(static_cast<float>(u) + ux * fx + uy * fy, static_cast<float>(v) + vx * fx + vy * fy);
-  };
-  for (const int dy : {-Patch::kReach, Patch::kReach})  // the rest lies between the corners
-    for (const int dx : {-Patch::kReach, Patch::kReach})
-      if (const Vec2<float> corner = at(dx, dy); !detail::holds(other, corner.x(), corner.y())) return false;
-  Patch seen;
-  std::size_t i = 0;
-  for (int dy = -Patch::kReach; dy <= Patch::kReach; ++dy)
-    for (int dx = -Patch::kReach; dx <= Patch::kReach; ++dx, ++i) {
-      const Vec2<float> place = at(dx, dy);
-      seen.value[i] = detail::sample(other, place.x(), place.y());
-    }
-  detail::centre_patch(seen);
-  float difference = 0;
-  for (std::size_t k = 0; k < seen.value.size(); ++k) {
-    const float d = seen.value[k] - patch.value[k];
-    difference += d * d;
-  }
+  const detail::PatchPlaces places{{static_cast<float>(u), static_cast<float>(v)}, {ux, vx}, {uy, vy}};
+  if (!places.in(other.grey) || !other.sees(places.centre)) return false;
+  std::array<float, Patch::kRoom> seen;
+  detail::sample(other.grey, places, seen);
+  // Of the values less their mean, by sums of the values: the patch's own have no mean.
+  const float sum = detail::sum_of_terms([&](std::size_t i) { return seen[i]; });
+  const float square = detail::sum_of_terms([&](std::size_t i) { return seen[i] * seen[i]; });
+  const float common = detail::sum_of_terms([&](std::size_t i) { return seen[i] * patch.value[i]; });
+  const float power = std::max(0.0F, square - sum * sum / Patch::kSize);
+  const float difference = std::max(0.0F, power + patch.power - 2 * common);
   const auto floor = static_cast<float>(2 * Patch::kSize * noise * noise);
-  cost = std::min(1.0F, difference / (patch.power + seen.power + floor));
+  cost = std::min(1.0F, difference / (patch.power + power + floor));
   return true;
 }
 

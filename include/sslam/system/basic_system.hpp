@@ -61,9 +61,12 @@ void BasicSystem<Frontend>::extract(const ImageInput& given, Extraction& out) {
   }
   const ImageInput input = shrinks && !given.image.empty() ? shrunk_input(given, camera_) : given;
   out.report = frontend_->process(input, out.frame);
-  out.picture = out.normal_picture = cv::Mat();
+  out.picture = out.normal_picture = out.picture_mask = cv::Mat();
   if (!out.usable()) return;
-  if (settings_.keep_pictures) out.picture = input.image;
+  if (settings_.keep_pictures) {
+    out.picture = input.image;
+    out.picture_mask = input.mask;
+  }
   if (normals_on_demand_) {
     keep_copy(input, out.asked_of);
   } else {

@@ -17,6 +17,7 @@ struct Extraction {
   std::string label;    // the caller's name of the image, for observers
   // Small pictures of the image and its normals, if Settings::keep_pictures is set; else empty.
   cv::Mat picture, normal_picture;
+  cv::Mat picture_mask;            // of the picture's size, as ImageInput::mask; empty: all is used
   Pinhole<double> normal_pinhole;  // of the normals' pixels, without lens distortion
 
   [[nodiscard]] bool usable() const noexcept { return report.image == ImageStatus::kOk; }
