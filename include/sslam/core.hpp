@@ -4,14 +4,12 @@
 #pragma once
 
 #include "sslam/core/bucket_lists.hpp"
-#include "sslam/core/bucket_lists.hpp"
 #include "sslam/core/closest_word.hpp"
 #include "sslam/core/colmap_bytes.hpp"
 #include "sslam/core/colmap_cameras.hpp"
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/error.hpp"
 #include "sslam/core/file_kind.hpp"
-#include "sslam/core/hamming_block.hpp"
 #include "sslam/core/hamming_block.hpp"
 #include "sslam/core/inline_vector.hpp"
 #include "sslam/core/median.hpp"
