@@ -49,3 +49,14 @@ TEST_CASE("Points that both sides share count where they stand apart from what c
   known[0].features.clear();
   CHECK(shared_beside<double>(map, known, here, there, 0) == shared);
 }
+
+TEST_CASE("The way between two keyframes goes through all that are left between them") {
+  MapScene scene{{}, sweep(5)};
+  Map<double> map = scene.make_map();
+  const auto centre = [&](std::size_t k) { return map.keyframes[k].cam_from_world.inverse().translation; };
+  const double way =
+      (centre(2) - centre(1)).norm() + (centre(3) - centre(2)).norm() + (centre(4) - centre(3)).norm();
+  CHECK(way_between<double>(map, 1, 4) == Approx(way).epsilon(1e-12));
+  CHECK(way_between<double>(map, 4, 1) == way_between<double>(map, 1, 4));
+  CHECK(way_between<double>(map, 2, 2) == 0);
+}

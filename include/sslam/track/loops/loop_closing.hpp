@@ -29,6 +29,8 @@ struct LoopClosingOptions {
   std::size_t place_keyframes = 10;  // around the place, whose landmarks are looked for again
   S in_place = S(0.8);  // share of the place's landmarks that are where the map has them: nothing has drifted
   int trials = 10;      // of places that were met once, after the last frame; each copies the map
+  int sightings = 3;    // keyframes around that recognise the place: on trial they stand for a second one,
+  S max_drift = S(0.05);  // where the place is off by at most this share of the way since then
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -38,6 +40,10 @@ struct LoopClosingOptions {
           "of a place's landmarks, that are where the map has them: nothing has drifted");
     visit("trials", self.trials, Unit::kCount, 0, 10000,
           "of loops by a single sighting, after the last frame; 0: none is tried");
+    visit("sightings", self.sightings, Unit::kCount, 1, 1000,
+          "keyframes that recognise a place, which close its loop on trial where the drift is likely");
+    visit("max_drift", self.max_drift, Unit::kShare, 0, 1,
+          "of the way between both visits of a place, that drift is likely to move the camera by");
   }
 };
 static_assert(Described<LoopClosingOptions<double>>);
@@ -78,6 +84,8 @@ class LoopClosing {
 
   // As close(), but where a second sighting lacks, the loop is closed on trial. It stands if keyframes around
   // then share points with the place beside those that it was closed by, as many as a second sighting asks.
+  // Where they recognise the place by most of what they see, little is left beside: several of them will do,
+  // if the way since then explains the drift. What only looks like the place stands anywhere.
   LoopAnswer<S> close_on_trial(Map<S>& map, KeyframeId id);
 
   [[nodiscard]] LoopDetection<S> finder() const { return detection; }
@@ -99,6 +107,12 @@ class LoopClosing {
     const PlaceConfirmationOptions<S>& nearby = detection.confirmation.options;
     return share_in_place<S>(map, keyframe, loop, nearby.reach) < nearby.min_share ? Drift::kLarge
                                                                                    : Drift::kSmall;
+  }
+
+  [[nodiscard]] bool drift_is_likely(const Map<S>& map, KeyframeId id, const Loop<S>& loop) const {
+    const Vec3<S> seen_from = loop.cam_from_world.inverse().translation;
+    const Vec3<S> stands = map.keyframes[map.index(id)].cam_from_world.inverse().translation;
+    return (seen_from - stands).norm() <= options.max_drift * way_between(map, loop.place, id);
   }
 
   LoopAnswer<S> close(Map<S>& map, KeyframeId id, const Loop<S>& loop, bool drifted) {
@@ -194,7 +208,9 @@ LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
   joining.match_both_ways(trial, here, id);
   adjustment.optimise(trial, id);
   const PlaceConfirmationOptions<S>& second = detection.confirmation.options;
-  if (shared_beside<S>(trial, known, here, joining.there(), second.apart) < second.min_new) return {};
+  const bool agreed = static_cast<int>(known.size()) >= options.sightings && drift_is_likely(map, id, *loop);
+  if (!agreed && shared_beside<S>(trial, known, here, joining.there(), second.apart) < second.min_new)
+    return {};
   adjustment.optimise_all(trial);
   map = std::move(trial);
   return {true, new_from_old_};

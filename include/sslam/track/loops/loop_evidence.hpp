@@ -31,6 +31,20 @@ S share_in_place(const Map<S>& map, const Keyframe<S>& keyframe, const Loop<S>& 
   return seen > 0 ? static_cast<S>(near) / static_cast<S>(seen) : S(0);
 }
 
+// Length of the way that the camera went from one keyframe to the other, either of which may be the older.
+template <Scalar S>
+S way_between(const Map<S>& map, KeyframeId a, KeyframeId b) {
+  const auto centre = [&](std::size_t k) { return map.keyframes[k].cam_from_world.inverse().translation; };
+  std::size_t last = map.index(std::min(a, b));
+  S way = 0;
+  for (std::size_t k = last + 1; k <= map.index(std::max(a, b)); ++k) {
+    if (!map.keyframes[k].alive()) continue;
+    way += (centre(k) - centre(last)).norm();
+    last = k;
+  }
+  return way;
+}
+
 // Where a view shows landmarks of these places, widened by `margin` pixels; empty: it shows none.
 template <Scalar S>
 Eigen::AlignedBox<S, 2> box_around(std::span<const Vec3<S>> places, const Frame<S>& frame,
