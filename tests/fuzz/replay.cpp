@@ -2,6 +2,7 @@
 #include "fuzz/replay.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string_view>
 
 #include "sslam/core/random.hpp"
@@ -73,6 +74,7 @@ std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t most, unsig
 }
 
 void replay(Target target, const std::vector<std::string>& inputs, int times, Mutator mutator) {
+  if (const char* const more = std::getenv("SSLAM_FUZZ_TIMES")) times *= std::max(1, std::atoi(more));
   REQUIRE_FALSE(inputs.empty());
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     INFO("input " << i);

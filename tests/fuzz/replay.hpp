@@ -17,7 +17,7 @@ using Mutator = std::size_t (*)(std::uint8_t* data, std::size_t size, std::size_
 std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed);
 
 // Each input as it is, then spoilt `times` in all. A target ends the process where it is not content; the
-// number of the input is told then.
+// number of the input is told then. The environment's SSLAM_FUZZ_TIMES multiplies `times`.
 void replay(Target target, const std::vector<std::string>& inputs, int times, Mutator mutator = mutate);
 
 // Input of a fuzzer of kernels: which scene, and how it is spoilt.

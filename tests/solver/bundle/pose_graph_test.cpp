@@ -121,4 +121,8 @@ TEST_CASE("A graph without edges or with numbers that are none is left as it is"
   const Vec3<double> before = graph.nodes[20].cam_from_world.translation;
   CHECK(PoseGraphSolver<double>().solve(graph).status == Status::kNotFinite);
   CHECK(graph.nodes[20].cam_from_world.translation == before);
+  graph.edges = edges;
+  for (auto& node : graph.nodes) node.cam_from_world.scale *= -1;
+  CHECK(PoseGraphSolver<double>().solve(graph).status == Status::kNotFinite);
+  CHECK(graph.nodes[20].cam_from_world.translation == before);
 }

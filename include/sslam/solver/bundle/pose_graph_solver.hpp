@@ -187,7 +187,10 @@ BundleSummary PoseGraphSolver<S>::solve(PoseGraph<S>& graph) {
   Descent descent{*this, graph};
   S cost = linearise(graph);
   summary.initial_cost = summary.final_cost = static_cast<double>(cost) / 2;
-  if (!std::isfinite(cost)) {
+  // Edges compare scales by their ratio, which hides a sign that both have.
+  const bool mirrored =
+      std::any_of(state_.begin(), state_.end(), [](const Sim3<S>& s) { return !(s.scale > 0); });
+  if (mirrored || !std::isfinite(cost)) {
     summary.status = Status::kNotFinite;
     return summary;
   }
