@@ -174,9 +174,9 @@ TEST_CASE("The view of a frame is read back and drawn") {
   REQUIRE(drawn.size() == picture.size());
   const cv::Vec3b point = drawn.at<cv::Vec3b>(10, 20), line = drawn.at<cv::Vec3b>(25, 40),
                   far = drawn.at<cv::Vec3b>(40, 70);
-  CHECK(point[2] > 150);  // yellow
-  CHECK(point[0] < 120);
-  CHECK(line[1] > line[2] + 60);  // green
+  CHECK(point[2] > 150);            // yellow
+  CHECK(point[0] + 60 < point[2]);  // less blue: JPEG blurs colours
+  CHECK(line[1] > line[2] + 60);    // green
   CHECK(std::abs(far[1] - 60) < 8);
   for (const std::size_t size : {std::size_t{0}, std::size_t{9}, bytes.size() / 2})
     CHECK_THROWS_AS(cli::decode_frame_view(std::string_view(bytes).substr(0, size)), Error);
