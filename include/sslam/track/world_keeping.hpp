@@ -76,11 +76,15 @@ class WorldKeeping : public PoseTracking<S, Stages> {
     SE3<S> from_fixed = frame.cam_from_world * world_.map.pose(fixed).inverse();
     bool closed = false;
     S scale = 1;
-    for (const KeyframeId id : loops.missed(world_.map)) {
-      const LoopAnswer<S> answer = loops.close_on_trial(world_.map, id);
-      closed = closed || answer.closed;
-      follow_loop(answer);
-      scale *= answer.scale_at(fixed);
+    const std::vector<KeyframeId> missed = loops.missed(world_.map);
+    for (const TrialEvidence speaking : {TrialEvidence::kBeside, TrialEvidence::kLikelyDrift}) {
+      if (closed) break;
+      for (const KeyframeId id : missed) {
+        const LoopAnswer<S> answer = loops.close_on_trial(world_.map, id, speaking);
+        closed = closed || answer.closed;
+        follow_loop(answer);
+        scale *= answer.scale_at(fixed);
+      }
     }
     if (!closed && !withdrawn) return false;
     from_fixed.translation *= scale;

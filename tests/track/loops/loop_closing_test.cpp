@@ -158,9 +158,10 @@ void leave_one_thing(Map<double>& map) {
   map.collect_free_ids();  // looks have changed
 }
 
-int closed_on_trial(LoopClosing<double>& loops, Map<double>& map) {
+int closed_on_trial(LoopClosing<double>& loops, Map<double>& map,
+                    TrialEvidence evidence = TrialEvidence::kBeside) {
   int closed = 0;
-  for (const KeyframeId id : loops.missed(map)) closed += loops.close_on_trial(map, id).closed;
+  for (const KeyframeId id : loops.missed(map)) closed += loops.close_on_trial(map, id, evidence).closed;
   return closed;
 }
 
@@ -256,6 +257,7 @@ TEST_CASE("One thing that stands at two places closes no loop, even on trial") {
   loops.options.max_drift = 0.005;                 // nor can drift have moved it there
   REQUIRE_FALSE(loops.missed(ring.map).empty());
   CHECK(closed_on_trial(loops, ring.map) == 0);
+  CHECK(closed_on_trial(loops, ring.map, TrialEvidence::kLikelyDrift) == 0);
   CHECK(same_bits(state_of(ring.map), before));
 }
 
@@ -266,7 +268,7 @@ TEST_CASE("A place that several keyframes recognise closes its loop on trial whe
   LoopClosing<double> loops;
   loops.detection.confirmation.options.reach = 1;  // no place is expected where the map has it
   loops.options.sightings = 2;                     // and a third of an image shows it to no more
-  CHECK(closed_on_trial(loops, ring.map) > 0);
+  CHECK(closed_on_trial(loops, ring.map, TrialEvidence::kLikelyDrift) > 0);
   INFO(before << " m before, " << error(ring) << " m after");
   CHECK(error(ring) < 0.5 * before);
 }

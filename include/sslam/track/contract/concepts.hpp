@@ -91,7 +91,7 @@ concept LoopStage = requires(T stage, const T idle, Map<S>& map, const Loop<S>& 
   // After the last frame: missed() lists keyframes that show a place they share no landmarks with;
   // close_on_trial() tries to close the loop of one.
   { stage.missed(std::as_const(map)) } -> std::same_as<std::vector<KeyframeId>>;
-  { stage.close_on_trial(map, KeyframeId{}) } -> std::same_as<LoopAnswer<S>>;
+  { stage.close_on_trial(map, KeyframeId{}, TrialEvidence{}) } -> std::same_as<LoopAnswer<S>>;
   { stage.merge(map, Map<S>(), KeyframeId{}, loop) } -> std::same_as<MapJoint<S>>;
   { idle.finder() } -> PlaceFinder<S>;  // a separate finder, for use while the stage works
   stage.forget();                       // another map follows

@@ -2,6 +2,7 @@
 // A loop: a keyframe shows a place of its map, or of another map, that it shares no landmarks with.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sslam/geometry/sim3.hpp"
@@ -22,6 +23,12 @@ struct Loop {
   [[nodiscard]] Sim3<S> there_from_here(const SE3<S>& cam_from_here) const {
     return cam_from_world.inverse() * similarity(cam_from_here);
   }
+};
+
+// What must speak for a loop that is closed on trial, after the last frame.
+enum class TrialEvidence : std::uint8_t {
+  kBeside,       // what both sides share beside that by which the place was recognised
+  kLikelyDrift,  // several keyframes that recognise it, and a drift that the way since then explains
 };
 
 }  // namespace sslam

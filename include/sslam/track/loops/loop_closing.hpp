@@ -84,9 +84,10 @@ class LoopClosing {
 
   // As close(), but where a second sighting lacks, the loop is closed on trial. It stands if keyframes around
   // then share points with the place beside those that it was closed by, as many as a second sighting asks.
-  // Where they recognise the place by most of what they see, little is left beside: several of them will do,
-  // if the way since then explains the drift. What only looks like the place stands anywhere.
-  LoopAnswer<S> close_on_trial(Map<S>& map, KeyframeId id);
+  // Where they recognise the place by most of what they see, little is left beside: kLikelyDrift takes
+  // several of them for it, if the way since then explains the drift. What only looks like the place stands
+  // anywhere.
+  LoopAnswer<S> close_on_trial(Map<S>& map, KeyframeId id, TrialEvidence evidence);
 
   [[nodiscard]] LoopDetection<S> finder() const { return detection; }
 
@@ -193,7 +194,7 @@ std::vector<KeyframeId> LoopClosing<S>::missed(const Map<S>& map) {
 }
 
 template <Scalar S>
-LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
+LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id, TrialEvidence evidence) {
   const std::optional<Loop<S>> loop = detection.find(map, id, map);
   if (!loop) return {};
   const Drift drifted = drift(map, id, *loop);
@@ -201,6 +202,9 @@ LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
   std::vector<KeyframeId> here;
   take_with_neighbours(map.keyframes[map.index(id)], map.keyframes.size(), here);
   const std::vector<Sighting> known = sightings(map, here, loop->place);
+  const bool by_drift = evidence == TrialEvidence::kLikelyDrift;
+  if (by_drift && !(static_cast<int>(known.size()) >= options.sightings && drift_is_likely(map, id, *loop)))
+    return {};
   Map<S> trial = map;
   if (!bend(trial, id, *loop)) return {};
   join(trial, id, *loop);
@@ -208,8 +212,7 @@ LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id) {
   joining.match_both_ways(trial, here, id);
   adjustment.optimise(trial, id);
   const PlaceConfirmationOptions<S>& second = detection.confirmation.options;
-  const bool agreed = static_cast<int>(known.size()) >= options.sightings && drift_is_likely(map, id, *loop);
-  if (!agreed && shared_beside<S>(trial, known, here, joining.there(), second.apart) < second.min_new)
+  if (!by_drift && shared_beside<S>(trial, known, here, joining.there(), second.apart) < second.min_new)
     return {};
   adjustment.optimise_all(trial);
   map = std::move(trial);

@@ -23,7 +23,7 @@ template <Scalar S>
 struct NoLoopClosing {
   LoopAnswer<S> close(Map<S>&, KeyframeId) { return {}; }
   [[nodiscard]] std::vector<KeyframeId> missed(const Map<S>&) { return {}; }
-  LoopAnswer<S> close_on_trial(Map<S>&, KeyframeId) { return {}; }
+  LoopAnswer<S> close_on_trial(Map<S>&, KeyframeId, TrialEvidence) { return {}; }
   MapJoint<S> merge(Map<S>&, Map<S>, KeyframeId, const Loop<S>&) { return {}; }
   [[nodiscard]] NoPlaces<S> finder() const { return {}; }
   void forget() noexcept {}
