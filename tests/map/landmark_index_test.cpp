@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslam/map/landmark_index.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,12 +17,10 @@ Descriptor filled(std::uint64_t word) {
   return d;
 }
 
-// Each landmark that differs from the descriptor in no bit, once for each piece that they share.
+// Each landmark that differs from the descriptor in no bit.
 std::vector<LandmarkId> exact(const LookIndex& looks, const Descriptor& descriptor) {
   std::vector<LandmarkId> found;
-  looks.near(descriptor, [&](LandmarkId id, int bits) {
-    if (bits == 0 && std::find(found.begin(), found.end(), id) == found.end()) found.push_back(id);
-  });
+  looks.near(descriptor, 0, [&](LandmarkId id, int) { found.push_back(id); });
   return found;
 }
 
