@@ -87,7 +87,7 @@ class LookIndex {
       });
   }
 
- public:
+ private:
   static constexpr std::size_t kPieces = 16, kPieceBits = 16;
   using Slots = std::array<std::int32_t, kPieces>;
   static constexpr Slots kNowhere = [] {
