@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
+
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::cli {
 
@@ -47,10 +48,7 @@ class TiffBlock {
 [[nodiscard]] inline double exif_focal(const std::filesystem::path& jpeg, int width, int height) {
   constexpr std::size_t kHead = 1U << 17U;  // the block stands first, and has 64 KiB at most
   constexpr std::uint32_t kPhotoDirectory = 0x8769, kFilmFocal = 0xA405;
-  std::string head(kHead, '\0');
-  std::ifstream file(jpeg, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string head = io::first_bytes(jpeg, kHead);
   const std::size_t mark = head.find(std::string_view("Exif\0\0", 6));
   if (!head.starts_with("\xff\xd8") || mark == std::string::npos) return 0;
   const TiffBlock tiff(std::string_view(head).substr(mark + 6));

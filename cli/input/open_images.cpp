@@ -2,7 +2,6 @@
 #include "cli/input/open_images.hpp"
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -31,11 +30,10 @@ bool is_video_of_images(const std::filesystem::path& path) {
 // A photo that is named as a video. Bare MJPEG, too, begins as a JPEG, and goes on behind its end.
 void refuse_named_photo(const std::filesystem::path& path) {
   std::error_code ignored;
-  std::vector<std::uint8_t> bytes(4096);
   if (!io::is_video_name(path) || !std::filesystem::is_regular_file(path, ignored)) return;
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  constexpr std::size_t kHead = 4096;
+  const std::string head = io::first_bytes(path, kHead);
+  std::vector<std::uint8_t> bytes(head.begin(), head.end());
   ImageHeader header = read_image_header(bytes);
   std::string why;
   if (header.format == ImageFormat::kOther || !open_image(path, bytes, header, why) || header.several ||

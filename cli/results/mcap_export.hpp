@@ -3,7 +3,6 @@
 // frames' states and pictures, the warnings.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +18,7 @@
 #include "sslam/io/bags/cdr_writer.hpp"
 #include "sslam/io/bags/definitions.hpp"
 #include "sslam/io/bags/mcap_writer.hpp"
+#include "sslam/io/files/text.hpp"
 #include "sslam/version.hpp"
 
 namespace sslam::cli {
@@ -44,7 +44,7 @@ inline std::vector<std::int64_t> add_diagnostics(io::McapWriter& out, std::uint1
   std::vector<std::string_view> cells(table.columns.size());
   for (std::size_t row = 0; stamp < cells.size() && row < table.rows(); ++row) {
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = table.cell(row, i);
-    times.push_back(io::message_time(std::strtod(std::string(cells[stamp]).c_str(), nullptr) * seconds));
+    times.push_back(io::message_time(io::parse_number<double>(cells[stamp]).value_or(0) * seconds));
     out.add(topic, times.back(), diagnostics_message(times.back(), table.columns, cells));
   }
   return times;

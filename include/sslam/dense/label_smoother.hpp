@@ -83,18 +83,15 @@ class LabelSmoother {
     const std::size_t labels = costs.labels();
     const float* const last = &path_[before];
     const float* const inverse = &costs.inverse_depth[here];
-    const float least = least_of(last, labels);
+    const float least = least_of(last, labels), changed = least + change;
     const auto crease = static_cast<float>(options.crease);
     const auto same = static_cast<float>(options.same_depth);
     best_.resize(labels);
-    for (std::size_t l = 0; l < labels; ++l) {
-      const float changed = least + change;
-      best_[l] = last[l] < changed ? last[l] : changed;
-    }
+    for (std::size_t l = 0; l < labels; ++l) best_[l] = last[l] < changed ? last[l] : changed;
     // Planes to come from at a crease: the others cost more than any change of plane. `none` has no depth.
     for (std::size_t m = 0; m + 1 < labels; ++m) {
       const float from = inverse[m], cost = last[m] + crease;
-      if (!(cost < least + change)) continue;
+      if (!(cost < changed)) continue;
       for (std::size_t l = 0; l < labels; ++l) {
         const float reached = std::abs(from - inverse[l]) < same * inverse[l] ? cost : kNoCost;
         best_[l] = reached < best_[l] ? reached : best_[l];

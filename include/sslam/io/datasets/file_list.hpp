@@ -3,7 +3,6 @@
 // backslashes, with more columns behind them, with a counter in front, or of another computer's folders.
 #pragma once
 
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -66,14 +65,10 @@ namespace file_list_detail {
   std::string file = find_listed(root, name);
   if (is_file(file)) return file;
   if (const std::filesystem::path path = file; is_image_name(path))
-    for (const bool small : {true, false}) {
-      std::string extension = path.extension().string();
-      for (char& c : extension)
-        c = static_cast<char>(small ? std::tolower(static_cast<unsigned char>(c))
-                                    : std::toupper(static_cast<unsigned char>(c)));
+    for (const auto& extension :
+         {lower_case(path.extension().string()), upper_case(path.extension().string())})
       if (auto other = std::filesystem::path(path).replace_extension(extension); is_file(other))
         return other.string();
-    }
   for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG", ".webp"})
     if (std::string longer = find_listed(root, name + extension); is_file(longer)) return longer;
   return file;

@@ -21,6 +21,11 @@ namespace sslam::io {
   return text;
 }
 
+[[nodiscard]] inline std::string upper_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
 [[nodiscard]] inline bool has_extension(const std::filesystem::path& path,
                                         std::span<const std::string_view> extensions) {
   const std::string own = lower_case(path.extension().string());

@@ -48,6 +48,15 @@ inline constexpr std::size_t kLongestText = std::size_t{1} << 30;
   return read_rest(file, path, most);
 }
 
+// The first bytes of a file, at most so many: by default enough to tell what it is. Empty: it cannot be read.
+[[nodiscard]] inline std::string first_bytes(const std::filesystem::path& path, std::size_t most = 512) {
+  std::string bytes(most, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(most));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
 // Between the cells of a row: blanks, tabs and commas, as the TUM tools split them, or semicolons and bars; a
 // comma is then left in its cell.
 [[nodiscard]] inline std::string_view cell_separators(std::string_view line) noexcept {

@@ -5,12 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "sslam/io/files/files.hpp"
+#include "sslam/io/files/text.hpp"
 
 namespace sslam::io {
 
@@ -53,16 +53,6 @@ namespace sslam::io {
 [[nodiscard]] inline bool starts_as_playlist(std::string_view bytes) {
   return bytes.starts_with("#EXTM3U") || bytes.starts_with("ffconcat version") ||
          bytes.find("<MPD") != std::string_view::npos;
-}
-
-// The first bytes of a file, enough to tell what it is.
-[[nodiscard]] inline std::string first_bytes(const std::filesystem::path& file) {
-  constexpr std::size_t kEnough = 512;
-  std::string bytes(kEnough, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), kEnough);
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return bytes;
 }
 
 // By its name or by its content, whatever else the name says.

@@ -70,9 +70,9 @@ inline void blank_brackets(std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::size_t first = text.find_first_not_of(" \t", at);
-    for (std::size_t i = at; first < end && (text[first] == '[' || text[first] == '(') && i < end; ++i)
-      if (std::string_view("[]()").find(text[i]) != std::string_view::npos && i != first) text[i] = ' ';
-    if (first < end && (text[first] == '[' || text[first] == '(')) text[first] = ' ';
+    if (first < end && (text[first] == '[' || text[first] == '('))
+      for (std::size_t i = first; i < end; ++i)
+        if (std::string_view("[]()").find(text[i]) != std::string_view::npos) text[i] = ' ';
     at = end + 1;
   }
 }

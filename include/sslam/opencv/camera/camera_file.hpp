@@ -106,8 +106,7 @@ inline void complete_wide(CameraFile& read) {
     return "is the text form (ost.txt) of ROS's calibrator; expected the ost.yaml beside it";
   if ((has("PPX:") && has("Fx:")) || (has("p[") && has("f[") && has("Brown Conrady")))
     return "is what RealSense's tools print; expected one row of text with fx fy cx cy (Fx Fy PPX PPY) of "
-           "the "
-           "stream";
+           "the stream";
   if (has("projection: [") && has("distortion: [") && has("+-"))
     return "is the report of Kalibr; expected the camchain.yaml beside it";
   if (has("fc = [") && has("cc = [") && has("kc = ["))

@@ -199,12 +199,12 @@ LoopAnswer<S> LoopClosing<S>::close_on_trial(Map<S>& map, KeyframeId id, TrialEv
   if (!loop) return {};
   const Drift drifted = drift(map, id, *loop);
   if (drifted != Drift::kLarge) return close(map, id, *loop, drifted == Drift::kSmall);
+  const bool by_drift = evidence == TrialEvidence::kLikelyDrift;
+  if (by_drift && !drift_is_likely(map, id, *loop)) return {};
   std::vector<KeyframeId> here;
   take_with_neighbours(map.keyframes[map.index(id)], map.keyframes.size(), here);
   const std::vector<Sighting> known = sightings(map, here, loop->place);
-  const bool by_drift = evidence == TrialEvidence::kLikelyDrift;
-  if (by_drift && !(static_cast<int>(known.size()) >= options.sightings && drift_is_likely(map, id, *loop)))
-    return {};
+  if (by_drift && static_cast<int>(known.size()) < options.sightings) return {};
   Map<S> trial = map;
   if (!bend(trial, id, *loop)) return {};
   join(trial, id, *loop);
