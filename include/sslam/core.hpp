@@ -3,7 +3,6 @@
 // header.
 #pragma once
 
-#include "sslam/core/bucket_lists.hpp"
 #include "sslam/core/closest_word.hpp"
 #include "sslam/core/colmap_bytes.hpp"
 #include "sslam/core/colmap_cameras.hpp"
@@ -83,6 +82,7 @@
 #include "sslam/manhattan/search.hpp"
 #include "sslam/manhattan/turned_start.hpp"
 #include "sslam/manhattan/votes.hpp"
+#include "sslam/map/bucket_lists.hpp"
 #include "sslam/map/bundle_window.hpp"
 #include "sslam/map/bundle_write_back.hpp"
 #include "sslam/map/covisibility.hpp"

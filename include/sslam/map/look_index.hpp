@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "sslam/core/bucket_lists.hpp"
 #include "sslam/core/descriptor.hpp"
 #include "sslam/core/hamming_block.hpp"
+#include "sslam/map/bucket_lists.hpp"
 #include "sslam/map/landmark.hpp"
 
 namespace sslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslam/core/bucket_lists.hpp"
+#include "sslam/map/bucket_lists.hpp"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ TEST_CASE("lists of buckets hold what was put in and not taken out") {
       slot[id] = lists.insert(bucket[id], static_cast<std::int32_t>(id));
     } else {
       const std::int32_t moved = lists.erase(bucket[id], slot[id]);
-      if (moved != BucketLists::kNothing) slot[static_cast<std::size_t>(moved)] = slot[id];
+      if (moved != kNone) slot[static_cast<std::size_t>(moved)] = slot[id];
       bucket[id] = kOut;
     }
     if (step % 100 != 0) continue;
