@@ -16,7 +16,7 @@ class FreeIds {
 
   // Puts the landmark in a free place, else at the end; its id.
   template <class Landmark>
-  LandmarkId settle(std::vector<Landmark>& landmarks, Landmark landmark) {
+  LandmarkId settle(std::vector<Landmark>& landmarks, Landmark&& landmark) {
     if (ids_.empty()) {
       landmarks.push_back(std::move(landmark));
       return static_cast<LandmarkId>(landmarks.size() - 1);
