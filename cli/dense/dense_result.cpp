@@ -98,8 +98,8 @@ class DenseRun {
     if (!seen_.empty() && picture.mask == packed_.back()->mask) return seen_.back();
     cv::Mat seen = picture.mask.empty() ? cv::Mat() : cv::imdecode(picture.mask, cv::IMREAD_GRAYSCALE) != 0;
     if (!camera_.distortion.is_identity()) {
-      const cv::Mat lens = lens_view();
-      seen = seen.empty() ? lens : undistorter_.undistort(seen, camera_) & lens;
+      if (lens_view_.empty()) lens_view_ = lens_view();
+      seen = seen.empty() ? lens_view_ : undistorter_.undistort(seen, camera_) & lens_view_;
     }
     if (seen.empty()) return seen;
     if (seen.size() != size) cv::resize(seen, seen, size, 0, 0, cv::INTER_AREA);
@@ -142,6 +142,7 @@ class DenseRun {
   const KeyframePictures& pictures_;
   const Camera<double>& camera_;
   Undistorter undistorter_;
+  cv::Mat lens_view_;  // of the images; empty: not made yet, or without distortion
   double scale_ = 1;
   std::vector<cv::Mat> greys_, seen_;
   std::vector<dense::DenseView> views_;

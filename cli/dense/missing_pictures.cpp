@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/input/frame_reader.hpp"
+#include "cli/input/masked_image.hpp"
 #include "sslam/opencv/camera/working_size.hpp"
 
 namespace sslam::cli {
@@ -24,13 +25,10 @@ void read_missing_pictures(const Map<double>& map, std::size_t first, const Pict
     if (found == missing.end()) continue;
     ImageInput input;
     std::string why;  // was told when the frame was tracked
+    input.name = reader.stem(entry);
     input.image = reader.read(entry, why);
     if (input.image.empty()) continue;
-    input.mask = source.masks.of(reader.stem(entry), why);
-    if (source.view != nullptr) {
-      input.image = source.view->of(input.image);
-      input.mask = source.view->mask(input.mask);
-    }
+    mask_and_straighten(source.masks, source.view, input, why);
     if (input.image.cols != source.working.width || input.image.rows != source.working.height)
       input = shrunk_input(input, source.working);
     pictures.note(*found->second, input.image, input.mask);

@@ -4,24 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 #include <utility>
-#include <vector>
 
-#include "sslam/core/median.hpp"
+#include "cli/dense/view_sharpness.hpp"
 
 namespace sslam::cli {
 namespace {
 
-constexpr int kTile = 16;         // texels that share their views
-constexpr double kBlurred = 0.3;  // sharpness of what is blurred beyond use
+constexpr int kTile = 16;  // texels that share their views
 constexpr std::size_t kViewsOfTile = 4;
 
 class Painter {
  public:
-  Painter(const TextureInput& input, Atlas& atlas) : input_(input), atlas_(atlas) {
+  Painter(const TextureInput& input, Atlas& atlas)
+      : input_(input), atlas_(atlas), sharpness_(sharpness_of(input.views)) {
     find_showing();
-    find_blur();
     find_gains();
   }
 
@@ -154,34 +151,6 @@ class Painter {
     }
   }
 
-  // Blur takes away what is fine in an image: its Laplacian, beside that of the views that see the same
-  // things.
-  void find_blur() {
-    std::vector<double> fine;
-    for (const dense::DenseView& view : input_.views) fine.push_back(fine_detail(view));
-    for (std::size_t v = 0; v < input_.views.size(); ++v) {
-      std::vector<double> others;
-      for (const std::size_t other : input_.views[v].near) others.push_back(fine[other]);
-      const double usual = others.empty() ? fine[v] : median(std::span<double>(others));
-      sharpness_.push_back(usual > 0 ? std::clamp(fine[v] / usual, kBlurred, 1.0) : 1);
-    }
-  }
-
-  // Mean absolute Laplacian over what the view shows of the world; the noise of the camera counts in each
-  // view alike.
-  [[nodiscard]] static double fine_detail(const dense::DenseView& view) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (int y = 1; y + 1 < view.grey.height(); ++y)
-      for (int x = 1; x + 1 < view.grey.width(); ++x) {
-        if (view.seen.width() > 0 && view.seen.at(x, y) == 0) continue;
-        sum += std::abs(4 * view.grey.at(x, y) - view.grey.at(x - 1, y) - view.grey.at(x + 1, y) -
-                        view.grey.at(x, y - 1) - view.grey.at(x, y + 1));
-        ++count;
-      }
-    return count > 0 ? sum / static_cast<double>(count) : 0;
-  }
-
   // Exposures: log I(view, place) = log gain^-1(view) + log albedo(place), by alternating means over places
   // that several views show; gains are 1 on average and drawn towards 1.
   void find_gains() {
@@ -233,7 +202,7 @@ class Painter {
   cv::Mat_<cv::Vec4f> sum_;               // weighted colours, and weights
   std::vector<std::vector<Tile>> tiles_;  // by view
   std::vector<double> gains_;             // by view
-  std::vector<double> sharpness_;         // by view: 1 where it is not blurred
+  std::vector<double> sharpness_;         // by view
   std::vector<std::vector<std::size_t>> showing_;
 };
 

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "cli/input/masked_image.hpp"
 #include "cli/input/size_text.hpp"
 #include "cli/shell/interrupt.hpp"
 
@@ -137,12 +138,8 @@ void FrameStream::fill(SourceFrame& frame, ExtractedFrame& out) {
   if (!input.image.empty()) {
     read_depth(entry, input, out);
     std::string maskless;
-    input.mask = options_.masks.of(input.name, maskless);
+    mask_and_straighten(options_.masks, options_.view, input, maskless);  // depth of wide lenses is refused
     if (!maskless.empty()) out.warning = maskless + "; all of the frame is used";
-    if (options_.view != nullptr) {  // depth has been refused
-      input.image = options_.view->of(input.image);
-      input.mask = options_.view->mask(input.mask);
-    }
     if (options_.recording != nullptr)
       options_.recording->add(entry.stamp * dataset_.seconds_per_stamp, frame, out.warning);
   }

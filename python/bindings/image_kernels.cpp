@@ -79,9 +79,7 @@ class Network {
     NormalStatus status = NormalStatus::kOk;
     {
       const Free free;
-      cv::Mat bgr = pixels;
-      if (rgb && pixels.channels() > 1)
-        cv::cvtColor(pixels, bgr, pixels.channels() == 4 ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGB2BGR);
+      const cv::Mat bgr = bgr_of(pixels, rgb);
       const std::lock_guard lock(in_use_);
       status = model_.infer(bgr, camera, dense);
     }

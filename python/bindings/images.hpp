@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,6 +37,14 @@ using PixelArray = nb::ndarray<nb::ro, nb::device::cpu>;
   return cv::Mat(static_cast<int>(array->shape(0)), static_cast<int>(array->shape(1)),
                  type_of(array->dtype(), channels), pixels,
                  static_cast<std::size_t>(array->stride(0)) * array->itemsize());
+}
+
+// In OpenCV's order of channels; the image itself where it is not in another.
+[[nodiscard]] inline cv::Mat bgr_of(const cv::Mat& image, bool rgb) {
+  cv::Mat bgr = image;
+  if (rgb && image.channels() > 1)
+    cv::cvtColor(image, bgr, image.channels() == 4 ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGB2BGR);
+  return bgr;
 }
 
 // Empty: None.

@@ -169,7 +169,8 @@ void bind_tracking(nb::module_& module) {
              settings.longest_side = longest_side;
              settings.final_pass = final_pass;
              settings.depth_factor = depth_factor;
-             const Free free;  // networks take a while to load
+             settings.keep_pictures = true;  // the map's colours come from them
+             const Free free;                // networks take a while to load
              settings.normals = source_of_normals(normals);
              new (self) Tracking(std::move(settings), radians(normals_sigma_deg));
            })

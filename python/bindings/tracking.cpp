@@ -5,9 +5,9 @@
 
 #include <chrono>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "bindings/images.hpp"
 #include "bindings/own_normals.hpp"
 #include "sslam/io/files/text.hpp"
 
@@ -49,12 +49,8 @@ Result Tracking::track(const Given& given) {
   input.index = system_->frames();
   input.stamp = given.stamp;
   input.name = given.name;
-  input.image = given.image;
-  if (given.rgb)
-    cv::cvtColor(given.image, input.image,
-                 given.image.channels() == 4 ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGB2BGR);
+  input.image = bgr_of(given.image, given.rgb);
   input.mask = given.mask;
-  image_ = input.image;
   input.depth = given.depth;
   input.depth_factor = system_->settings().depth_factor;
   heard_ = {};
@@ -67,11 +63,7 @@ Result Tracking::track(const Given& given) {
 }
 
 void Tracking::keyframe_made(const FrameEvent& event) {
-  const Camera<double>& camera = system_->camera();  // shrunk, where images are large
-  cv::Mat picture = image_;
-  if (picture.cols != camera.width)
-    cv::resize(image_, picture, {camera.width, camera.height}, 0, 0, cv::INTER_AREA);
-  colours_.note(event.frame.frame, picture, camera);
+  colours_.note(event.frame.frame, event.input.picture, system_->camera());
 }
 
 CloudRows Tracking::cloud() {

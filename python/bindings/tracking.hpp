@@ -90,7 +90,6 @@ class Tracking : Observer {
   std::mutex in_use_;  // the members below, and what changes the system
   Extraction extraction_;
   Result heard_;
-  cv::Mat image_;  // of the frame that is being tracked
   cli::FeatureColours colours_;
   std::optional<double> last_stamp_;
   bool finished_ = false;

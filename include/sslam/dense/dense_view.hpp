@@ -36,10 +36,10 @@ struct DenseView {
   std::vector<DepthMark> marks;   // pixels of `grey`
   std::vector<std::size_t> near;  // other views that see the same things from elsewhere
 
+  [[nodiscard]] bool sees(int x, int y) const noexcept { return seen.width() == 0 || seen.at(x, y) != 0; }
   // At the pixel nearest to a place in the image.
   [[nodiscard]] bool sees(const Vec2<float>& place) const noexcept {
-    return seen.width() == 0 ||
-           seen.at(static_cast<int>(place.x() + 0.5F), static_cast<int>(place.y() + 0.5F)) != 0;
+    return sees(static_cast<int>(place.x() + 0.5F), static_cast<int>(place.y() + 0.5F));
   }
   [[nodiscard]] Vec3<double> centre() const noexcept { return cam_from_world.inverse().translation; }
 };
