@@ -18,12 +18,12 @@ class FreeIds {
   template <class Landmark>
   LandmarkId settle(std::vector<Landmark>& landmarks, Landmark&& landmark) {
     if (ids_.empty()) {
-      landmarks.push_back(std::move(landmark));
+      landmarks.push_back(std::forward<Landmark>(landmark));
       return static_cast<LandmarkId>(landmarks.size() - 1);
     }
     const LandmarkId id = ids_.back();
     ids_.pop_back();
-    landmarks[static_cast<std::size_t>(id)] = std::move(landmark);
+    landmarks[static_cast<std::size_t>(id)] = std::forward<Landmark>(landmark);
     return id;
   }
 
